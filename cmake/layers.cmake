@@ -1,0 +1,31 @@
+# How all of our own code is compiled. Linked privately, so that it never reaches generated code.
+add_library(slod_options INTERFACE)
+target_compile_options(slod_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor
+    -ffp-contract=off)      # same bits on every machine; see ARCHITECTURE.md, Determinism
+
+option(SLOD_VALIDATE "Check every structure's invariants after each phase (slow)" OFF)
+if(SLOD_VALIDATE)
+    target_compile_definitions(slod_options INTERFACE SLOD_VALIDATE)
+endif()
+
+option(SLOD_PLAIN_THREADS "Run parallel loops on std::jthread, for ThreadSanitizer, which cannot see into libtbb" OFF)
+
+# slod_layer(<folder> SOURCES <files> [DEPENDS <libraries>]): one library slod_<name> per folder.
+# Its headers are found only by those who link it: the include root of a layer is a folder of its
+# own that holds nothing but a link to the layer, so an include against the arrows does not build.
+function(slod_layer name)
+    cmake_parse_arguments(LAYER "" "" "SOURCES;DEPENDS" ${ARGN})
+    set(root ${CMAKE_BINARY_DIR}/layers/${name})
+    file(MAKE_DIRECTORY ${root})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
+    if(LAYER_SOURCES)
+        add_library(slod_${name} STATIC ${LAYER_SOURCES})
+        target_include_directories(slod_${name} PUBLIC ${root})
+        target_link_libraries(slod_${name} PUBLIC ${LAYER_DEPENDS} PRIVATE slod_options)
+    else()
+        add_library(slod_${name} INTERFACE)
+        target_include_directories(slod_${name} INTERFACE ${root})
+        target_link_libraries(slod_${name} INTERFACE ${LAYER_DEPENDS})
+    endif()
+endfunction()

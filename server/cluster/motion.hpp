@@ -1,0 +1,43 @@
+#pragma once
+
+#include "core/settings.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace slod {
+
+/// How a cluster's members move with it.
+enum class Motion : std::uint8_t {
+    Flow,   ///< by the tangent of the step: exact in linear fields, first order elsewhere
+    Stream, ///< freely, with their own velocities: the flow map without tides
+    Rigid,  ///< by the cluster's displacement (O'Brien et al. 2001, section 4.4)
+};
+
+constexpr std::array<std::string_view, 3> names(Motion)
+{
+    return {"flow", "stream", "rigid"};
+}
+
+struct MotionSettings {
+    Motion motion = Motion::Flow;
+    double clock = 0.2;             ///< tau: a map lives tau / sqrt(|tidal tensor|)
+    std::uint32_t shortest_life = 2; ///< frames
+    std::uint32_t longest_life = 64; ///< frames
+};
+
+template <class Visitor>
+void for_each_field(MotionSettings& motion, Visitor&& visit)
+{
+    visit(Field{"kind", "", "How members move with their cluster: by its linearised flow, freely, or rigidly."},
+          motion.motion);
+    visit(Field{"clock", "", "A flow map is renewed after this share of the tidal time 1/sqrt(|T|).", 1e-3, 10},
+          motion.clock);
+    visit(Field{"shortest_life", "frames", "Shortest life of a flow map; a power of two.", 1, 1024},
+          motion.shortest_life);
+    visit(Field{"longest_life", "frames", "Longest life of a flow map; a power of two.", 1, 65536},
+          motion.longest_life);
+}
+
+} // namespace slod

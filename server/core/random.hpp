@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace slod {
+
+/// Counter-based random numbers, Philox4x32-10 (Salmon et al. 2011, SC11): the numbers of a particle
+/// depend on the seed, the stream and the particle alone, not on who draws first.
+class Random {
+public:
+    /// The generator of item `item` (a particle id) in stream `stream` (an emitter, a purpose).
+    Random(std::uint64_t seed, std::uint32_t stream, std::uint64_t item);
+
+    std::uint32_t bits();                     ///< 32 random bits
+    double uniform();                         ///< in (0, 1), 53 bits
+    double normal();                          ///< mean 0, variance 1
+    std::array<double, 3> direction();        ///< uniform on the unit sphere
+    std::array<double, 2> point_in_disc();    ///< uniform in the unit disc
+
+private:
+    void refill();
+
+    std::array<std::uint32_t, 2> key_;
+    std::array<std::uint32_t, 4> counter_;
+    std::array<std::uint32_t, 4> block_{};
+    unsigned used_ = 4;
+};
+
+} // namespace slod

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "cluster/particles.hpp"
+#include "scene/initial_settings.hpp"
+#include "scene/server_settings.hpp"
+#include "sim/settings.hpp"
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace slod {
+
+/// All that a scene file says.
+struct Scene {
+    std::string title;
+    SimulationSettings simulation;
+    InitialSettings initial;
+    GalaxySettings galaxy;
+    EncounterSettings encounter;
+    ServerSettings server;
+    WireSettings wire;
+};
+
+/// Reads a scene file and then the overrides, "table.key=value" with a TOML value, one each. Every problem
+/// is reported, each with file, line, key, value and remedy. Nothing else is read or changed.
+std::variant<Scene, Problems> load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+/// Every key of a scene file with unit, default, range and meaning, as text for a terminal.
+std::string scene_reference();
+
+/// The particles a scene starts with.
+struct InitialParticles {
+    ParticleSet particles;
+    std::string source; ///< in words, for the log: which file, or which model and why
+};
+
+/// Reads or generates them. `input` (may be empty) names the file instead of the scene's own, which is
+/// otherwise looked up in the environment's SLOD_DATA_DIR. Never both: a file that is named but unusable
+/// is a problem, not a reason to fall back.
+std::variant<InitialParticles, Problems> load_initial(const Scene& scene, const std::filesystem::path& input);
+
+} // namespace slod

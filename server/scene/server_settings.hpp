@@ -1,0 +1,65 @@
+#pragma once
+
+#include "core/settings.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace slod {
+
+/// How the server runs a scene; the simulation's outcome does not depend on it.
+struct ServerSettings {
+    double frame_rate = 30;    ///< frames per second of wall time that the pacer holds
+    std::uint32_t threads = 0; ///< 0: one per core
+    std::string isa = "auto";  ///< instruction set of the kernels
+};
+
+/// Where the wire reaches.
+enum class WireProfile : std::uint8_t { Loopback, Lan };
+
+constexpr std::array<std::string_view, 2> names(WireProfile)
+{
+    return {"loopback", "lan"};
+}
+
+/// What is published over DDS, and to whom.
+struct WireSettings {
+    bool enabled = true;
+    std::uint32_t domain = 0;
+    WireProfile profile = WireProfile::Loopback;
+    double clusters_rate = 30;               ///< Hz, at most
+    double overview_rate = 10;               ///< Hz, at most
+    double stats_rate = 10;                  ///< Hz, at most
+    std::uint32_t max_clusters = 262'144;    ///< per region and frame; beyond it coarser nodes are published
+    std::uint32_t max_overview_nodes = 4096; ///< per frame
+};
+
+template <class Visitor>
+void for_each_field(ServerSettings& server, Visitor&& visit)
+{
+    visit(Field{"frame_rate", "Hz", "Frames per second that the server paces itself to.", 0.01, 10000},
+          server.frame_rate);
+    visit(Field{"threads", "", "Worker threads; 0 is one per core.", 0, 1024}, server.threads);
+    visit(Field{"isa", "", "Instruction set of the kernels: auto, baseline, v3 or v4."}, server.isa);
+}
+
+template <class Visitor>
+void for_each_field(WireSettings& wire, Visitor&& visit)
+{
+    visit(Field{"enabled", "", "Publish over DDS at all."}, wire.enabled);
+    visit(Field{"domain", "", "DDS domain.", 0, 230}, wire.domain);
+    visit(Field{"profile", "", "loopback stays on this machine; lan is reachable from others."}, wire.profile);
+    visit(Field{"clusters_rate", "Hz", "Cluster states are published at most this often.", 0.01, 1000},
+          wire.clusters_rate);
+    visit(Field{"overview_rate", "Hz", "The overview is published at most this often.", 0.01, 1000},
+          wire.overview_rate);
+    visit(Field{"stats_rate", "Hz", "Statistics are published at most this often.", 0.01, 1000}, wire.stats_rate);
+    visit(Field{"max_clusters", "clusters", "Most clusters published per region and frame; beyond, coarser nodes.", 1,
+                4e6},
+          wire.max_clusters);
+    visit(Field{"max_overview_nodes", "nodes", "Most nodes of the overview.", 1, 65536}, wire.max_overview_nodes);
+}
+
+} // namespace slod

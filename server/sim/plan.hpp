@@ -1,0 +1,63 @@
+#pragma once
+
+#include "sim/phase.hpp"
+#include "sim/settings.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slod {
+
+/// What carries a member from its cluster's forming to now.
+enum class MapKind : std::uint8_t {
+    Identity, ///< nothing: rigid motion, or one particle per cluster
+    Scalar,   ///< A = 1, C = 0, B and D closed forms of the age: exact where no field depends on the position
+    Full,     ///< four 3x3 blocks, the tangent of every step since forming
+};
+
+constexpr std::array<std::string_view, 3> names(MapKind)
+{
+    return {"identity", "scalar", "full"};
+}
+
+/// One array that the plan allocates.
+struct PlannedColumn {
+    std::string_view name;
+    std::size_t bytes; ///< per particle or per cluster
+};
+
+/// An effect the program knows, and whether this scene calls for it.
+struct PlannedEffect {
+    std::string_view name;
+    bool active;
+    std::string_view acts_on_clusters; ///< "linear", "linearised" or "per member"
+};
+
+/// What a scene comes down to: the phases that run, and the columns that exist. Compiled once from the
+/// settings; what a scene does not name is not in it.
+struct Plan {
+    MapKind map = MapKind::Identity;
+    bool map_is_exact = false; ///< maps never age: only size, breadth and regions re-form a cluster
+    bool unclustered = false;  ///< one particle per cluster everywhere
+    bool finite_lives = false; ///< particles expire
+    bool several_kinds = false;
+    bool several_masses = false;
+    float uniform_mass = 0; ///< of every particle, unless several_masses
+    std::array<bool, phase_count> runs{};
+    std::vector<PlannedEffect> effects;
+    std::vector<PlannedColumn> member_columns;
+    std::vector<PlannedColumn> cluster_columns;
+
+    bool has(Phase phase) const { return runs[std::size_t(phase)]; }
+};
+
+/// Compiles the plan of a scene that starts with `initial`.
+Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial);
+
+/// The plan in words, for --explain: phases, effects active and absent, map kind, columns and bytes.
+std::string explain(const Plan& plan, const SimulationSettings& settings);
+
+} // namespace slod

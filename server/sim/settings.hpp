@@ -1,0 +1,75 @@
+#pragma once
+
+#include "cluster/motion.hpp"
+#include "cluster/particles.hpp"
+#include "core/settings.hpp"
+#include "effects/settings.hpp"
+#include "gravity/settings.hpp"
+#include "tree/settings.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace slod {
+
+/// The scene's units in SI. Everything inside the simulation is in scene units.
+struct Units {
+    double length_m = 1;
+    double mass_kg = 1;
+    double time_s = 1;
+
+    /// Newton's constant (CODATA 2018) in these units.
+    double gravitational_constant() const
+    {
+        return 6.67430e-11 * mass_kg * time_s * time_s / (length_m * length_m * length_m);
+    }
+};
+
+struct TimeSettings {
+    double step = 1.0 / 60; ///< one frame's simulated time
+};
+
+/// All that the simulation needs to know of a scene. What is absent (an effect, an emitter) is not
+/// planned, run or allocated.
+struct SimulationSettings {
+    std::uint64_t seed = 1;
+    Units units;
+    TimeSettings time;
+    std::vector<ParticleKind> kinds; ///< at least one
+    MotionSettings motion;
+    RegionSettings background; ///< the region of interest that holds whatever no other one does
+    std::optional<GravitySettings> gravity;
+    std::optional<UniformGravitySettings> uniform_gravity;
+    std::optional<LinearDragSettings> linear_drag;
+    std::optional<UniformWindSettings> uniform_wind;
+    std::vector<EmitterSettings> emitters;
+};
+
+/// What no single field's range can say is wrong with the settings together; empty when nothing is.
+Problems problems(const SimulationSettings& settings);
+
+template <class Visitor>
+void for_each_field(Units& units, Visitor&& visit)
+{
+    visit(Field{"length", "m", "Length of the scene's unit of length.", 1e-30, 1e30}, units.length_m);
+    visit(Field{"mass", "kg", "Mass of the scene's unit of mass.", 1e-60, 1e60}, units.mass_kg);
+    visit(Field{"time", "s", "Duration of the scene's unit of time.", 1e-30, 1e30}, units.time_s);
+}
+
+template <class Visitor>
+void for_each_field(TimeSettings& time, Visitor&& visit)
+{
+    visit(Field{"step", "time", "Simulated time of one frame.", 1e-12, 1e12}, time.step);
+}
+
+template <class Visitor>
+void for_each_field(ParticleKind& kind, Visitor&& visit)
+{
+    visit(Field{"name", "", "Name of the kind: 1 to 32 of a-z, 0-9, _ and -."}, kind.name);
+    visit(Field{"softening", "length",
+                "Plummer softening length; a pair is softened by the mean of both squares.", 0, 1e30},
+          kind.softening);
+}
+
+} // namespace slod

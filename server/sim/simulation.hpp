@@ -1,0 +1,62 @@
+#pragma once
+
+#include "cluster/particles.hpp"
+#include "sim/plan.hpp"
+#include "sim/settings.hpp"
+#include "sim/snapshot.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+namespace slod {
+
+/// The simulation of one scene. Owns the clusters and the SLOD-tree; knows no file, thread, socket or
+/// clock. Call it from one thread, inside ThreadTeam::run; the result does not depend on the team's size.
+class Simulation {
+public:
+    /// Time now in nanoseconds since any fixed moment; used for the profile only.
+    using Tick = std::function<std::int64_t()>;
+
+    struct Options {
+        std::string_view isa; ///< instruction set of the kernels; empty: the fastest this processor runs
+        Tick tick;            ///< empty: the profile stays 0
+    };
+
+    /// Forms clusters of `initial` and evaluates the first forces. `settings` must have no problems().
+    Simulation(const SimulationSettings& settings, const ParticleSet& initial, const Options& options);
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+
+    /// What the caller wants in this frame's snapshot besides the counts; copying clusters costs O(clusters).
+    struct Request {
+        bool clusters = false;
+        bool conserved = false;
+    };
+
+    /// One frame: one fixed time step. The snapshot is valid until the next call.
+    const Snapshot& step(const Request& request);
+
+    /// The present state, filled as requested, without a step.
+    const Snapshot& snapshot(const Request& request);
+
+    const Plan& plan() const;
+    const SimulationSettings& settings() const;
+    std::string_view isa() const; ///< of the kernels in use
+
+    /// Covers centres, velocities, maps, members, masses, ids, the region table and the random counters.
+    std::uint64_t state_hash() const;
+
+    /// Every particle, mapped out of its cluster, ordered by id. O(particles).
+    ParticleSet particles() const;
+
+    /// What breaks the invariants of clusters, members and tree; empty when nothing does. O(particles).
+    Problems problems() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace slod
