@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cluster/flow_map.hpp"
 #include "sim/phase.hpp"
 #include "sim/settings.hpp"
 
@@ -10,18 +11,6 @@
 #include <vector>
 
 namespace slod {
-
-/// What carries a member from its cluster's forming to now.
-enum class MapKind : std::uint8_t {
-    Identity, ///< nothing: rigid motion, or one particle per cluster
-    Scalar,   ///< A = 1, C = 0, B and D closed forms of the age: exact where no field depends on the position
-    Full,     ///< four 3x3 blocks, the tangent of every step since forming
-};
-
-constexpr std::array<std::string_view, 3> names(MapKind)
-{
-    return {"identity", "scalar", "full"};
-}
 
 /// One array that the plan allocates.
 struct PlannedColumn {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cluster/conserved.hpp"
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
 #include "sim/phase.hpp"
@@ -25,16 +26,24 @@ struct FrameCounts {
     std::uint64_t splits = 0;            ///< clusters split for size or breadth
     std::uint64_t merges = 0;
     std::uint64_t interactions = 0;      ///< pairs summed by gravity
-    std::uint64_t postponed_pools = 0;   ///< due pools left for the next frame for want of member slabs
 };
 
-/// Quantities that an isolated system conserves, in scene units.
-struct ConservedQuantities {
-    double mass = 0;
-    Vector3d momentum{0, 0, 0};
-    Vector3d angular_momentum{0, 0, 0}; ///< about the scene's origin, internal part included
-    double kinetic_energy = 0;          ///< internal part included
-};
+/// Calls visit(name, member) for every count of events in a frame; the only list of them. The other
+/// counts (particles, clusters, pools) are levels: summing them over frames means nothing.
+template <class Counts, class Visitor>
+void for_each_event(Counts& counts, Visitor&& visit)
+{
+    visit("born", counts.born);
+    visit("died", counts.died);
+    visit("due_pools", counts.due_pools);
+    visit("reformed_members", counts.reformed_members);
+    visit("strays_inserted", counts.strays_inserted);
+    visit("strays_founding", counts.strays_founding);
+    visit("crossings", counts.crossings);
+    visit("splits", counts.splits);
+    visit("merges", counts.merges);
+    visit("interactions", counts.interactions);
+}
 
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is
 /// published, drawn and tested. Filled only when somebody asks for it.

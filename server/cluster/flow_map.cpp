@@ -1,0 +1,74 @@
+#include "cluster/flow_map.hpp"
+
+#include "core/assert.hpp"
+#include "core/portable_math.hpp"
+
+namespace slod {
+
+void kick(FlowMap& map, double step, const Symmetric3& tide)
+{
+    const Matrix3f pull = (step * tide.matrix()).cast<float>();
+    map.c += pull + pull * map.a_minus_1;
+    map.d_minus_1 += pull * map.b;
+}
+
+void propagate(FlowMap& map, const Propagator& step)
+{
+    const float drift = float(step.drift);
+    const float loss = float(step.decay_minus_1);
+    map.a_minus_1 += drift * map.c;
+    map.b += drift * (map.d_minus_1 + Matrix3f::Identity());
+    if (loss == 0)
+        return;
+    map.c += loss * map.c;
+    map.d_minus_1 += loss * (map.d_minus_1 + Matrix3f::Identity());
+}
+
+MapBlocks::Offset MapBlocks::inverse(const Offset& now) const
+{
+    const auto approximate = [&](const Offset& target) -> Offset {
+        return {(d.transpose() * target.position - b.transpose() * target.velocity) / decay,
+                (a.transpose() * target.velocity - c.transpose() * target.position) / decay};
+    };
+    Offset formed = approximate(now);
+    const Offset reached = forward(formed);
+    const Offset correction = approximate({now.position - reached.position, now.velocity - reached.velocity});
+    formed.position += correction.position;
+    formed.velocity += correction.velocity;
+    return formed;
+}
+
+MapBlocks blocks_of(const FlowMap& map, double decay)
+{
+    MapBlocks blocks;
+    blocks.a += map.a_minus_1.cast<double>();
+    blocks.b = map.b.cast<double>();
+    blocks.c = map.c.cast<double>();
+    blocks.d += map.d_minus_1.cast<double>();
+    blocks.decay = decay;
+    return blocks;
+}
+
+double drag_drift(double drag, double time)
+{
+    return drag == 0 ? time : -portable_expm1(-drag * time) / drag;
+}
+
+MapBlocks MapRule::blocks(std::uint64_t age_frames, const FlowMap* full) const
+{
+    if (kind == MapKind::Identity)
+        return {};
+    const double age = double(age_frames) * step;
+    const double decay = drag == 0 ? 1.0 : portable_exp(-drag * age);
+    if (kind == MapKind::Full) {
+        SLOD_ASSERT(full != nullptr);
+        return blocks_of(*full, decay);
+    }
+    MapBlocks blocks;
+    blocks.b = drag_drift(drag, age) * Matrix3d::Identity();
+    blocks.d = decay * Matrix3d::Identity();
+    blocks.decay = decay;
+    return blocks;
+}
+
+} // namespace slod

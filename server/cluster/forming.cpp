@@ -1,0 +1,247 @@
+#include "cluster/forming.hpp"
+
+#include "core/assert.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace slod {
+namespace {
+
+/// Mean position and velocity of particles, by mass, or by number when all are massless.
+struct Centre {
+    Vector3d position{0, 0, 0}, velocity{0, 0, 0};
+};
+
+Centre centre_of(std::span<const Particle> particles)
+{
+    // Relative to the first particle, so that a cluster far from the origin loses nothing.
+    double mass = 0;
+    for (const Particle& particle : particles)
+        mass += double(particle.mass);
+    const bool massless = !(mass > 0);
+    const double total = massless ? double(particles.size()) : mass;
+    const Particle& origin = particles.front();
+    Centre sum;
+    for (const Particle& particle : particles) {
+        const double weight = (massless ? 1.0 : double(particle.mass)) / total;
+        sum.position += weight * (particle.position - origin.position);
+        sum.velocity += weight * (particle.velocity - origin.velocity);
+    }
+    return {origin.position + sum.position, origin.velocity + sum.velocity};
+}
+
+/// Where the stored rows of the slab hold a cluster's member data.
+struct Rows {
+    FormedOffset* offset;
+    std::uint64_t* id;
+    float* mass;           ///< null: uniform
+    std::uint8_t* kind;    ///< null: all of kind 0
+    std::uint32_t* expiry; ///< null: immortal
+};
+
+Rows rows_of(MemberPool& members, const Slab& slab)
+{
+    return {members.offsets(slab), members.ids(slab), members.masses(slab), members.kinds(slab),
+            members.expiries(slab)};
+}
+
+void write_row(const Rows& rows, std::uint32_t row, const Particle& particle, const FormedOffset& offset)
+{
+    rows.offset[row] = offset;
+    rows.id[row] = particle.id;
+    if (rows.mass != nullptr)
+        rows.mass[row] = particle.mass;
+    if (rows.kind != nullptr)
+        rows.kind[row] = particle.kind;
+    if (rows.expiry != nullptr)
+        rows.expiry[row] = particle.expiry_frame;
+}
+
+/// Weight of a member in the sums that define the cluster's centre: of mass, or of number when massless.
+void add_to_moments(ClusterStore& store, std::size_t slot, double mass, double number, const FormedOffset& offset)
+{
+    const Vector3d o = offset.position.cast<double>();
+    const Vector3d w = offset.velocity.cast<double>();
+    store.clusters.moments[slot].add(mass, o, w);
+    if (store.clusters.columns.counting_moments)
+        store.clusters.counting[slot].add(number, o, w);
+}
+
+/// The means that the map is applied about: of mass, or of number for a massless cluster.
+MapBlocks::Offset means(const ClusterTable& clusters, std::size_t slot)
+{
+    const Moments& mass = clusters.moments[slot];
+    const Moments& weights = mass.weight > 0 ? mass : clusters.counting_moments(slot);
+    return {weights.mean_offset(), weights.mean_velocity()};
+}
+
+MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offset& mean)
+{
+    return {offset.position.cast<double>() - mean.position, offset.velocity.cast<double>() - mean.velocity};
+}
+
+/// The member's share of the weight that the centre is the mean of, once it has joined.
+double share(const ClusterTable& clusters, std::size_t slot, double mass)
+{
+    const double total = clusters.mass(slot);
+    return total > 0 ? mass / total : 1.0 / double(clusters.count[slot]);
+}
+
+void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, std::uint64_t frame)
+{
+    ClusterTable& clusters = store.clusters;
+    clusters.position[slot] = centre.position;
+    clusters.velocity[slot] = centre.velocity;
+    clusters.moments[slot] = {};
+    clusters.offset_max[slot] = 0;
+    clusters.speed_max[slot] = 0;
+    clusters.formed_frame[slot] = frame;
+    if (clusters.columns.map) {
+        clusters.map[slot] = {};
+        clusters.closure[slot] = 0;
+    }
+    if (clusters.columns.counting_moments)
+        clusters.counting[slot] = {};
+    if (clusters.columns.acceleration)
+        clusters.acceleration[slot].setZero();
+    if (clusters.columns.tide)
+        clusters.tide[slot] = {};
+}
+
+} // namespace
+
+void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> particles, std::uint64_t frame)
+{
+    ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    SLOD_ASSERT(!particles.empty() && particles.size() <= clusters.slab[slot].capacity);
+    std::sort(particles.begin(), particles.end(), [](const Particle& a, const Particle& b) {
+        return std::tie(a.expiry_frame, a.id) < std::tie(b.expiry_frame, b.id);
+    });
+    const Centre centre = centre_of(particles);
+    start_columns(store, slot, centre, frame);
+    const Rows rows = rows_of(store.members, clusters.slab[slot]);
+    double softening_sum = 0;
+    std::uint32_t row = 0;
+    for (const Particle& particle : particles) {
+        const FormedOffset offset{(particle.position - centre.position).cast<float>(),
+                                  (particle.velocity - centre.velocity).cast<float>()};
+        write_row(rows, row++, particle, offset);
+        add_to_moments(store, slot, double(particle.mass), 1, offset);
+        clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
+        clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
+        softening_sum += double(particle.mass) * store.kind_softening_squared[particle.kind];
+    }
+    clusters.stored[slot] = clusters.count[slot] = row;
+    const double mass = clusters.mass(slot);
+    clusters.softening_squared[slot] =
+        float(mass > 0 ? softening_sum / mass : store.kind_softening_squared[particles.front().kind]);
+    if (clusters.columns.expiry)
+        clusters.next_expiry[slot] = particles.front().expiry_frame;
+}
+
+void map_out(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame, std::span<Particle> out)
+{
+    const ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    SLOD_ASSERT(out.size() == clusters.count[slot]);
+    const Slab& slab = clusters.slab[slot];
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    const MapBlocks::Offset mean = means(clusters, slot);
+    const FormedOffset* offsets = store.members.offsets(slab);
+    const std::uint64_t* ids = store.members.ids(slab);
+    const float* masses = store.members.masses(slab);
+    const std::uint8_t* kinds = store.members.kinds(slab);
+    const std::uint32_t* expiries = store.members.expiries(slab);
+    auto particle = out.begin();
+    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row) {
+        if (expiries != nullptr && expiries[row] <= frame)
+            continue;
+        const MapBlocks::Offset now = map.forward(relative_to(offsets[row], mean));
+        particle->position = clusters.position[slot] + now.position;
+        particle->velocity = clusters.velocity[slot] + now.velocity;
+        particle->id = ids[row];
+        particle->mass = masses != nullptr ? masses[row] : store.uniform_mass;
+        particle->kind = kinds != nullptr ? kinds[row] : std::uint8_t(0);
+        particle->expiry_frame = expiries != nullptr ? expiries[row] : Particle::never;
+        ++particle;
+    }
+    SLOD_ASSERT(particle == out.end());
+}
+
+void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& particle, std::uint64_t frame)
+{
+    ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    SLOD_ASSERT(clusters.count[slot] > 0 && clusters.stored[slot] < clusters.slab[slot].capacity);
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    const MapBlocks::Offset mean = means(clusters, slot);
+    const Vector3d away = particle.position - clusters.position[slot];
+    const Vector3d rush = particle.velocity - clusters.velocity[slot];
+    const MapBlocks::Offset formed = map.inverse({away, rush});
+    const FormedOffset offset{(formed.position + mean.position).cast<float>(),
+                              (formed.velocity + mean.velocity).cast<float>()};
+    write_row(rows_of(store.members, clusters.slab[slot]), clusters.stored[slot]++, particle, offset);
+
+    const double old_mass = clusters.mass(slot);
+    add_to_moments(store, slot, double(particle.mass), 1, offset);
+    ++clusters.count[slot];
+    const double weight = share(clusters, slot, double(particle.mass));
+    clusters.position[slot] += weight * away;
+    clusters.velocity[slot] += weight * rush;
+    clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
+    clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
+    if (clusters.mass(slot) > 0) {
+        const double sum = double(clusters.softening_squared[slot]) * old_mass +
+                           store.kind_softening_squared[particle.kind] * double(particle.mass);
+        clusters.softening_squared[slot] = float(sum / clusters.mass(slot));
+    }
+    if (clusters.columns.expiry)
+        clusters.next_expiry[slot] = std::min(clusters.next_expiry[slot], particle.expiry_frame);
+}
+
+std::uint32_t remove_expired(ClusterStore& store, ClusterSlot cluster, std::uint64_t frame)
+{
+    ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    const Slab& slab = clusters.slab[slot];
+    const std::uint32_t* expiries = store.members.expiries(slab);
+    const FormedOffset* offsets = store.members.offsets(slab);
+    const float* masses = store.members.masses(slab);
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    const std::uint32_t due = clusters.next_expiry[slot];
+    std::uint32_t died = 0;
+    clusters.next_expiry[slot] = Particle::never;
+    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row) {
+        if (expiries[row] > frame) {
+            clusters.next_expiry[slot] = std::min(clusters.next_expiry[slot], expiries[row]);
+            continue;
+        }
+        if (expiries[row] < due)
+            continue; // died in an earlier frame
+        ++died;
+        if (--clusters.count[slot] == 0)
+            break;
+        // The centre moves away from the member by its share of what remains.
+        const double mass = double(masses != nullptr ? masses[row] : store.uniform_mass);
+        const MapBlocks::Offset now = map.forward(relative_to(offsets[row], means(clusters, slot)));
+        add_to_moments(store, slot, -mass, -1, offsets[row]);
+        const double weight = share(clusters, slot, mass);
+        clusters.position[slot] -= weight * now.position;
+        clusters.velocity[slot] -= weight * now.velocity;
+    }
+    return died;
+}
+
+double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot, std::uint64_t frame)
+{
+    const MapBlocks map = clusters.blocks(slot, rule, frame);
+    const MapBlocks::Offset mean = means(clusters, slot);
+    // The Frobenius norm bounds the spectral norm.
+    return map.a.norm() * (double(clusters.offset_max[slot]) + mean.position.norm()) +
+           map.b.norm() * (double(clusters.speed_max[slot]) + mean.velocity.norm());
+}
+
+} // namespace slod

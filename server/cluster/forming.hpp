@@ -1,0 +1,48 @@
+#pragma once
+
+#include "cluster/cluster_table.hpp"
+#include "cluster/member_pool.hpp"
+#include "cluster/particles.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace slod {
+
+/// The clusters and their members, and what is common to all of them: how maps are obtained and what
+/// members of a kind share. Every operation below conserves mass and momentum to rounding in double and
+/// moves no member by more than one float rounding of its offset.
+struct ClusterStore {
+    ClusterStore(const ClusterTable::Columns& cluster_columns, const MemberPool::Columns& member_columns,
+                 const MapRule& map_rule)
+        : clusters(cluster_columns), members(member_columns), rule(map_rule)
+    {}
+
+    ClusterTable clusters;
+    MemberPool members;
+    MapRule rule;
+    float uniform_mass = 0;                    ///< of members, when they have no mass column
+    std::vector<double> kind_softening_squared; ///< eps^2 by kind
+};
+
+/// Forms a cluster of `particles` (at least one) in `slot`, whose slab must have room for them: centre and
+/// velocity by mass, or by number when all are massless; offsets and moments from them; the identity map.
+/// Reorders the particles: by expiry, then id. Leaves region, pool and list to the caller.
+void form_cluster(ClusterStore& store, ClusterSlot slot, std::span<Particle> particles, std::uint64_t frame);
+
+/// Writes the cluster's live members as they are at the end of frame `frame`; `out` has room for count of
+/// them. Order as stored.
+void map_out(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, std::span<Particle> out);
+
+/// Adds a particle through the inverse map. The slab must have a free row.
+void insert_member(ClusterStore& store, ClusterSlot slot, const Particle& particle, std::uint64_t frame);
+
+/// Takes away the members whose time has come at the end of frame `frame`; returns how many. The cluster
+/// may be left with count 0, for the caller to free.
+std::uint32_t remove_expired(ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
+
+/// Radius about the centre that no member is beyond: |A| (o_max + |o_c|) + |B| (w_max + |w_c|).
+double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot, std::uint64_t frame);
+
+} // namespace slod

@@ -1,0 +1,76 @@
+#include "cluster/moments.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace slod {
+namespace {
+
+void add_square(Symmetric3& sum, double weight, const Vector3d& v)
+{
+    sum.xx += weight * v.x() * v.x();
+    sum.xy += weight * v.x() * v.y();
+    sum.xz += weight * v.x() * v.z();
+    sum.yy += weight * v.y() * v.y();
+    sum.yz += weight * v.y() * v.z();
+    sum.zz += weight * v.z() * v.z();
+}
+
+/// Sums about the means instead of about the forming centre.
+struct CentralMoments {
+    Matrix3d oo, ww, ow;
+};
+
+CentralMoments central(const Moments& moments)
+{
+    const Vector3d o = moments.mean_offset();
+    const Vector3d w = moments.mean_velocity();
+    return {moments.oo.matrix() - moments.weight * o * o.transpose(),
+            moments.ww.matrix() - moments.weight * w * w.transpose(),
+            moments.ow - moments.weight * o * w.transpose()};
+}
+
+/// sum of weight (P o + R w)(P o + R w)^T
+Matrix3d mapped_square(const CentralMoments& sums, const Matrix3d& p, const Matrix3d& r)
+{
+    const Matrix3d mixed = p * sums.ow * r.transpose();
+    return p * sums.oo * p.transpose() + mixed + mixed.transpose() + r * sums.ww * r.transpose();
+}
+
+} // namespace
+
+void Moments::add(double member_weight, const Vector3d& offset, const Vector3d& velocity)
+{
+    weight += member_weight;
+    o += member_weight * offset;
+    w += member_weight * velocity;
+    add_square(oo, member_weight, offset);
+    add_square(ww, member_weight, velocity);
+    ow += member_weight * offset * velocity.transpose();
+}
+
+MappedMoments map_moments(const Moments& moments, const MapBlocks& map)
+{
+    const CentralMoments sums = central(moments);
+    return {mapped_square(sums, map.a, map.b), mapped_square(sums, map.c, map.d),
+            map.a * sums.oo * map.c.transpose() + map.a * sums.ow * map.d.transpose() +
+                map.b * sums.ow.transpose() * map.c.transpose() + map.b * sums.ww * map.d.transpose()};
+}
+
+Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map)
+{
+    return Symmetric3::of(mapped_square(central(moments), map.a, map.b));
+}
+
+double breadth(const Symmetric3& second_moments, double weight)
+{
+    if (!(weight > 0))
+        return 0;
+    Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
+    solver.computeDirect(second_moments.matrix() / weight, Eigen::EigenvaluesOnly);
+    return 2 * std::sqrt(5 * std::max(solver.eigenvalues()(2), 0.0));
+}
+
+} // namespace slod

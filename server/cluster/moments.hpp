@@ -1,0 +1,41 @@
+#pragma once
+
+#include "cluster/flow_map.hpp"
+#include "core/vectors.hpp"
+
+namespace slod {
+
+/// Weighted sums over a cluster's members of what was stored at their forming, offset o and relative
+/// velocity w. With mass as weight they give everything about the cluster that its map can carry, without
+/// visiting a member; with weight 1 its extent as seen.
+struct Moments {
+    double weight = 0;         ///< sum of weights: the mass, or the count
+    Vector3d o{0, 0, 0};       ///< sum of weight o
+    Vector3d w{0, 0, 0};       ///< sum of weight w
+    Symmetric3 oo;             ///< Q: sum of weight o o^T
+    Symmetric3 ww;             ///< W: sum of weight w w^T
+    Matrix3d ow = Matrix3d::Zero(); ///< S: sum of weight o w^T
+
+    /// Adds a member; a negative weight takes it away again.
+    void add(double member_weight, const Vector3d& offset, const Vector3d& velocity);
+
+    Vector3d mean_offset() const { return weight > 0 ? Vector3d(o / weight) : Vector3d(0, 0, 0); }
+    Vector3d mean_velocity() const { return weight > 0 ? Vector3d(w / weight) : Vector3d(0, 0, 0); }
+};
+
+/// Second moments about the means, mapped to now: sums, not yet divided by the weight.
+struct MappedMoments {
+    Matrix3d position;  ///< sum of weight dx dx^T
+    Matrix3d velocity;  ///< sum of weight dv dv^T
+    Matrix3d cross;     ///< sum of weight dx dv^T
+};
+
+MappedMoments map_moments(const Moments& moments, const MapBlocks& map);
+
+/// The position part of map_moments alone, which is what a frame needs.
+Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map);
+
+/// Diameter of the homogeneous ball with the largest principal variance of `second_moments / weight`.
+double breadth(const Symmetric3& second_moments, double weight);
+
+} // namespace slod

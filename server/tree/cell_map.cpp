@@ -1,0 +1,65 @@
+#include "tree/cell_map.hpp"
+
+#include "core/assert.hpp"
+
+#include <utility>
+
+namespace slod {
+
+std::size_t CellMap::home(const Cell& cell) const
+{
+    // Multiplicative mixing (Knuth 1998, vol. 3, 6.4) of the three coordinates.
+    std::uint64_t hash = std::uint32_t(cell.x) * 0x9E3779B97F4A7C15ULL;
+    hash = (hash ^ (hash >> 29) ^ std::uint32_t(cell.y)) * 0xBF58476D1CE4E5B9ULL;
+    hash = (hash ^ (hash >> 32) ^ std::uint32_t(cell.z)) * 0x94D049BB133111EBULL;
+    return std::size_t(hash ^ (hash >> 31)) & mask();
+}
+
+std::size_t CellMap::position_of(const Cell& cell) const
+{
+    std::size_t position = home(cell);
+    while (slots_[position].root.valid() && slots_[position].cell != cell)
+        position = (position + 1) & mask();
+    return position;
+}
+
+NodeId CellMap::find(const Cell& cell) const
+{
+    return slots_[position_of(cell)].root;
+}
+
+void CellMap::insert(const Cell& cell, NodeId root)
+{
+    SLOD_ASSERT(root.valid() && !find(cell).valid());
+    if (2 * (size_ + 1) > slots_.size())
+        grow();
+    slots_[position_of(cell)] = {cell, root};
+    ++size_;
+}
+
+void CellMap::erase(const Cell& cell)
+{
+    std::size_t hole = position_of(cell);
+    SLOD_ASSERT(slots_[hole].root.valid());
+    --size_;
+    // Close the gap: whatever probed past the hole moves into it.
+    for (std::size_t next = (hole + 1) & mask(); slots_[next].root.valid(); next = (next + 1) & mask()) {
+        const std::size_t displacement = (next - home(slots_[next].cell)) & mask();
+        if (displacement >= ((next - hole) & mask())) {
+            slots_[hole] = slots_[next];
+            hole = next;
+        }
+    }
+    slots_[hole] = {};
+}
+
+void CellMap::grow()
+{
+    std::vector<Slot> old(2 * slots_.size());
+    std::swap(old, slots_);
+    for (const Slot& slot : old)
+        if (slot.root.valid())
+            slots_[position_of(slot.cell)] = slot;
+}
+
+} // namespace slod

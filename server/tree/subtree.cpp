@@ -1,0 +1,247 @@
+#include "tree/subtree.hpp"
+
+#include "core/assert.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slod {
+namespace {
+
+constexpr int deepest = 64;
+constexpr std::uint32_t smallest_pool = 16;
+
+NodeId take_node_pair(Subtree& tree)
+{
+    if (tree.free_node_pairs.empty()) {
+        const NodeId pair{std::uint32_t(tree.nodes.size())};
+        tree.nodes.resize(tree.nodes.size() + 2);
+        return pair;
+    }
+    const NodeId pair = tree.free_node_pairs.back();
+    tree.free_node_pairs.pop_back();
+    return pair;
+}
+
+NodeId take_root(Subtree& tree)
+{
+    if (tree.free_roots.empty()) {
+        tree.nodes.emplace_back();
+        return {std::uint32_t(tree.nodes.size() - 1)};
+    }
+    const NodeId root = tree.free_roots.back();
+    tree.free_roots.pop_back();
+    return root;
+}
+
+/// A turn that spreads pools evenly over the frames: multiplication by the golden ratio (Knuth 1998).
+std::uint32_t phase_of(PoolId pool)
+{
+    return (pool.index * 0x9E3779B9U) >> 16;
+}
+
+PoolId take_pool(Subtree& tree, NodeId leaf)
+{
+    if (tree.free_pools.empty()) {
+        tree.pools.emplace_back();
+        tree.free_pools.push_back({std::uint32_t(tree.pools.size() - 1)});
+    }
+    const PoolId pool = tree.free_pools.back();
+    tree.free_pools.pop_back();
+    tree.pools[pool.index] = Pool{.node = leaf, .first = {}, .phase = phase_of(pool)};
+    tree.nodes[leaf.index].pool = pool;
+    return pool;
+}
+
+void free_pool(Subtree& tree, PoolId pool)
+{
+    SLOD_ASSERT(tree.pools[pool.index].clusters == 0);
+    tree.pools[pool.index].node = {};
+    tree.free_pools.push_back(pool);
+}
+
+PoolId descend(const Subtree& tree, NodeId node, const Vector3d& x)
+{
+    while (!tree.nodes[node.index].leaf()) {
+        const Node& inner = tree.nodes[node.index];
+        node = x[inner.axis] < inner.split ? inner.left : inner.right();
+    }
+    return tree.nodes[node.index].pool;
+}
+
+/// Moves all clusters of one pool to another.
+void move_clusters(Subtree& tree, ClusterTable& clusters, PoolId from, PoolId to)
+{
+    while (tree.pools[from.index].first.valid()) {
+        const ClusterSlot slot = tree.pools[from.index].first;
+        unlink(tree, clusters, slot);
+        link(tree, clusters, to, slot);
+    }
+}
+
+NodeId sibling_of(const Subtree& tree, NodeId node)
+{
+    const Node& parent = tree.nodes[tree.nodes[node.index].parent.index];
+    return parent.left == node ? parent.right() : parent.left;
+}
+
+/// Makes the parent of two leaves a leaf, with `kept` as its pool.
+void merge_leaves(Subtree& tree, ClusterTable& clusters, PoolId kept, PoolId given_up)
+{
+    const NodeId parent = tree.nodes[tree.pools[kept.index].node.index].parent;
+    move_clusters(tree, clusters, given_up, kept);
+    free_pool(tree, given_up);
+    tree.free_node_pairs.push_back(tree.nodes[parent.index].left);
+    tree.nodes[parent.index].left = {};
+    tree.nodes[parent.index].pool = kept;
+    tree.pools[kept.index].node = parent;
+}
+
+} // namespace
+
+Subtree::Subtree(const RegionSettings& region_settings, std::uint16_t region_index, double grid_cell_side)
+    : settings(region_settings), region(region_index), cell_side(grid_cell_side)
+{
+    SLOD_ASSERT(cell_side > 0 && std::isfinite(cell_side));
+}
+
+std::uint32_t Subtree::pool_limit() const
+{
+    return std::max(smallest_pool, std::uint32_t(settings.pool_factor * settings.max_cluster_size));
+}
+
+Cell cell_of(const Subtree& tree, const Vector3d& x)
+{
+    // What is farther out shares the cells at the rim.
+    constexpr double rim = 1 << 30;
+    const auto coordinate = [&](double value) {
+        return std::int32_t(std::clamp(std::floor(value / tree.cell_side), -rim, rim));
+    };
+    return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z())};
+}
+
+PoolId locate(const Subtree& tree, const Vector3d& x)
+{
+    const NodeId root = tree.cells.find(cell_of(tree, x));
+    return root.valid() ? descend(tree, root, x) : PoolId{};
+}
+
+PoolId locate_near(const Subtree& tree, PoolId start, const Vector3d& x)
+{
+    NodeId node = tree.pools[start.index].node;
+    while (node.valid() && !tree.nodes[node.index].box.contains(x))
+        node = tree.nodes[node.index].parent;
+    return node.valid() ? descend(tree, node, x) : locate(tree, x);
+}
+
+PoolId locate_or_grow(Subtree& tree, const Vector3d& x)
+{
+    if (const PoolId found = locate(tree, x); found.valid())
+        return found;
+    const Cell cell = cell_of(tree, x);
+    const NodeId root = take_root(tree);
+    const Vector3d corner = tree.cell_side * Vector3d(cell.x, cell.y, cell.z);
+    tree.nodes[root.index] = {};
+    tree.nodes[root.index].box = {corner, corner + Vector3d::Constant(tree.cell_side)};
+    tree.cells.insert(cell, root);
+    return take_pool(tree, root);
+}
+
+bool can_expand(const Subtree& tree, PoolId pool)
+{
+    const Node& leaf = tree.nodes[tree.pools[pool.index].node.index];
+    return leaf.depth < deepest && leaf.box.size().maxCoeff() > 1e-9 * tree.cell_side;
+}
+
+PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, double position)
+{
+    const NodeId leaf = tree.pools[pool.index].node;
+    const NodeId pair = take_node_pair(tree);
+    Node& parent = tree.nodes[leaf.index];
+    SLOD_ASSERT(parent.leaf() && parent.box.lower[axis] < position && position < parent.box.upper[axis]);
+    Node child;
+    child.box = parent.box;
+    child.parent = leaf;
+    child.depth = parent.depth + 1;
+    tree.nodes[pair.index] = tree.nodes[pair.index + 1] = child;
+    tree.nodes[pair.index].box.upper[axis] = position;
+    tree.nodes[pair.index + 1].box.lower[axis] = position;
+    parent.left = pair;
+    parent.axis = axis;
+    parent.split = position;
+    parent.pool = {};
+
+    tree.nodes[pair.index].pool = pool;
+    const PoolId right = take_pool(tree, {pair.index + 1});
+    Pool& old_pool = tree.pools[pool.index];
+    old_pool.node = pair;
+    tree.pools[right.index].life = old_pool.life;
+    tree.pools[right.index].phase = old_pool.phase;
+    tree.pools[right.index].due_frame = old_pool.due_frame;
+
+    for (ClusterSlot slot = old_pool.first; slot.valid();) {
+        const ClusterSlot next = clusters.next[slot.index];
+        if (clusters.position[slot.index][axis] >= position) {
+            unlink(tree, clusters, slot);
+            link(tree, clusters, right, slot);
+        }
+        slot = next;
+    }
+    return right;
+}
+
+PoolId prune(Subtree& tree, ClusterTable& clusters, PoolId pool, std::uint32_t members)
+{
+    for (;;) {
+        const NodeId node = tree.pools[pool.index].node;
+        if (!tree.nodes[node.index].parent.valid())
+            break;
+        const NodeId sibling = sibling_of(tree, node);
+        if (!tree.nodes[sibling.index].leaf())
+            return pool;
+        const PoolId other = tree.nodes[sibling.index].pool;
+        if (tree.pools[pool.index].members + tree.pools[other.index].members >= members)
+            return pool;
+        merge_leaves(tree, clusters, pool, other);
+    }
+    if (tree.pools[pool.index].clusters > 0)
+        return pool;
+    const NodeId root = tree.pools[pool.index].node;
+    const Box& box = tree.nodes[root.index].box;
+    tree.cells.erase(cell_of(tree, 0.5 * (box.lower + box.upper)));
+    tree.free_roots.push_back(root);
+    tree.nodes[root.index].pool = {};
+    free_pool(tree, pool);
+    return {};
+}
+
+void link(Subtree& tree, ClusterTable& clusters, PoolId pool_id, ClusterSlot slot)
+{
+    Pool& pool = tree.pools[pool_id.index];
+    clusters.pool[slot.index] = pool_id;
+    clusters.region[slot.index] = tree.region;
+    clusters.previous[slot.index] = {};
+    clusters.next[slot.index] = pool.first;
+    if (pool.first.valid())
+        clusters.previous[pool.first.index] = slot;
+    pool.first = slot;
+    ++pool.clusters;
+    pool.members += clusters.count[slot.index];
+}
+
+void unlink(Subtree& tree, ClusterTable& clusters, ClusterSlot slot)
+{
+    Pool& pool = tree.pools[clusters.pool[slot.index].index];
+    const ClusterSlot next = clusters.next[slot.index];
+    const ClusterSlot previous = clusters.previous[slot.index];
+    if (next.valid())
+        clusters.previous[next.index] = previous;
+    if (previous.valid())
+        clusters.next[previous.index] = next;
+    else
+        pool.first = next;
+    --pool.clusters;
+    pool.members -= clusters.count[slot.index];
+}
+
+} // namespace slod

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "cluster/forming.hpp"
+#include "core/ids.hpp"
+#include "tree/box.hpp"
+#include "tree/cell_map.hpp"
+#include "tree/settings.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace slod {
+
+/// A node of a cell's k-d tree. The right child follows the left one.
+struct Node {
+    Box box;
+    NodeId parent; ///< invalid in the root of a cell
+    NodeId left;   ///< invalid in a leaf
+    PoolId pool;   ///< valid in a leaf
+    double split = 0;
+    int axis = 0;
+    int depth = 0;
+
+    bool leaf() const { return !left.valid(); }
+    NodeId right() const { return {left.index + 1}; }
+};
+
+/// The clusters of one leaf, and when they are formed anew.
+struct Pool {
+    NodeId node;         ///< invalid in a free pool
+    ClusterSlot first;   ///< head of the list of its clusters
+    std::uint32_t clusters = 0;
+    std::uint32_t members = 0;
+    std::uint32_t life = 0;      ///< frames that its clusters live, counted from their forming
+    std::uint32_t phase = 0;     ///< spreads the pools' turns over the frames
+    std::uint64_t due_frame = 0; ///< end of the clusters' life
+};
+
+/// The subtree of one region of interest: a sparse uniform grid whose cells are no wider than the maximum
+/// breadth, each cell the root of a k-d tree whose leaves are pools (O'Brien et al. 2001, section 4.2).
+/// Invariants, listed by problems():
+///  - the children's boxes divide their parent's; a root's box is its cell;
+///  - every leaf has a pool and every pool in use a leaf; inner nodes have none;
+///  - a pool's counts are those of its list, and its clusters name the pool and the region.
+struct Subtree {
+    Subtree(const RegionSettings& settings, std::uint16_t region_index, double grid_cell_side);
+
+    RegionSettings settings;
+    std::uint16_t region = 0;
+    double cell_side = 1; ///< scene length
+    CellMap cells;
+    std::vector<Node> nodes;
+    std::vector<Pool> pools;
+    std::vector<NodeId> free_node_pairs; ///< first of two neighbouring free nodes
+    std::vector<NodeId> free_roots;
+    std::vector<PoolId> free_pools;
+
+    std::uint32_t max_cluster_size() const { return std::uint32_t(settings.max_cluster_size); }
+    std::uint32_t pool_limit() const; ///< members of a pool: a goal; expanded above 1.4, pruned below 0.7 of it
+    std::size_t pool_count() const { return pools.size() - free_pools.size(); }
+};
+
+Cell cell_of(const Subtree& tree, const Vector3d& x);
+
+/// The pool at x; invalid when its cell is not there.
+PoolId locate(const Subtree& tree, const Vector3d& x);
+
+/// The same, searched bottom-up from a pool nearby (section 4.3).
+PoolId locate_near(const Subtree& tree, PoolId start, const Vector3d& x);
+
+/// The pool at x, whose cell is made when it is not there.
+PoolId locate_or_grow(Subtree& tree, const Vector3d& x);
+
+/// Splits a pool's leaf at `position` along `axis`; its clusters go to the side their centre is on. The
+/// pool itself becomes the left one; the right one is returned, with the same turn.
+PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, double position);
+
+/// Whether a leaf can be divided further: not when it has become too deep or too thin.
+bool can_expand(const Subtree& tree, PoolId pool);
+
+/// Merges the pool's leaf with its sibling while that is a leaf too and both together hold less than
+/// `members`, or removes its cell when it holds nothing. Returns the pool that holds the clusters now;
+/// invalid when the cell is gone.
+PoolId prune(Subtree& tree, ClusterTable& clusters, PoolId pool, std::uint32_t members);
+
+void link(Subtree& tree, ClusterTable& clusters, PoolId pool, ClusterSlot slot);   ///< adds to the pool's list
+void unlink(Subtree& tree, ClusterTable& clusters, ClusterSlot slot);              ///< takes it off its list
+
+/// What breaks the invariants; empty when nothing does. O(clusters).
+Problems problems(const Subtree& tree, const ClusterTable& clusters);
+
+} // namespace slod
