@@ -4,46 +4,45 @@
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
 #include "sim/phase.hpp"
+#include "tree/slod_tree.hpp"
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace slod {
 
 /// What happened in one frame, counted.
-struct FrameCounts {
+struct FrameCounts : UpdateCounts {
     std::uint64_t particles = 0;         ///< alive at the end of the frame
     std::uint64_t clusters = 0;
     std::uint64_t pools = 0;
     std::uint64_t born = 0;
     std::uint64_t died = 0;
-    std::uint64_t due_pools = 0;         ///< pools whose clusters were re-formed
-    std::uint64_t reformed_members = 0;  ///< members mapped out and formed anew
-    std::uint64_t strays_inserted = 0;   ///< re-formed members that joined a living cluster
-    std::uint64_t strays_founding = 0;   ///< re-formed members that started a cluster in a pool not due
-    std::uint64_t crossings = 0;         ///< clusters that moved to another pool
-    std::uint64_t splits = 0;            ///< clusters split for size or breadth
-    std::uint64_t merges = 0;
     std::uint64_t interactions = 0;      ///< pairs summed by gravity
 };
 
-/// Calls visit(name, member) for every count of events in a frame; the only list of them. The other
-/// counts (particles, clusters, pools) are levels: summing them over frames means nothing.
-template <class Counts, class Visitor>
-void for_each_event(Counts& counts, Visitor&& visit)
-{
-    visit("born", counts.born);
-    visit("died", counts.died);
-    visit("due_pools", counts.due_pools);
-    visit("reformed_members", counts.reformed_members);
-    visit("strays_inserted", counts.strays_inserted);
-    visit("strays_founding", counts.strays_founding);
-    visit("crossings", counts.crossings);
-    visit("splits", counts.splits);
-    visit("merges", counts.merges);
-    visit("interactions", counts.interactions);
-}
+/// A count of events in a frame, by name.
+struct EventCount {
+    std::string_view name;
+    std::uint64_t FrameCounts::*count;
+};
+
+/// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
+/// means nothing.
+inline constexpr std::array<EventCount, 10> event_counts{{
+    {"born", &FrameCounts::born},
+    {"died", &FrameCounts::died},
+    {"due_pools", &FrameCounts::due_pools},
+    {"reformed_members", &FrameCounts::reformed_members},
+    {"strays_inserted", &FrameCounts::strays_inserted},
+    {"strays_founding", &FrameCounts::strays_founding},
+    {"crossings", &FrameCounts::crossings},
+    {"splits", &FrameCounts::splits},
+    {"merges", &FrameCounts::merges},
+    {"interactions", &FrameCounts::interactions},
+}};
 
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is
 /// published, drawn and tested. Filled only when somebody asks for it.
