@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+// Plain data only: this header goes into files built for newer processors, and of an inline function
+// in it the linker might keep, for the whole program, the copy made for a processor we lack.
+namespace slod::simd {
+
+/// Targets come in multiples of this many, so that no kernel has a tail loop. The caller puts any finite
+/// places and softenings after the last target; sums are added there too, and mean nothing.
+inline constexpr std::size_t tile_width = 16;
+
+/// The kernels' `self` when no body is among both the targets and the sources.
+inline constexpr std::ptrdiff_t no_self = PTRDIFF_MIN;
+
+/// Bodies that are attracted. The sums are *added to*, so a list of sources may come in pieces.
+/// Arrays have padded_count elements, need no alignment, and those written overlap no other.
+template <class Real>
+struct GravityTargets {
+    std::size_t padded_count;                ///< a multiple of tile_width
+    const Real *x, *y, *z;                   ///< length; targets and sources share an origin, near both
+    const Real* q;                           ///< half the squared softening, length^2, >= 0
+    Real *ax, *ay, *az;                      ///< acceleration / G, mass / length^2
+    Real *txx, *txy, *txz, *tyy, *tyz, *tzz; ///< tide / G, mass / length^3; null when none is asked for
+};
+
+/// Bodies whose potential is asked for; otherwise as GravityTargets.
+template <class Real>
+struct PotentialTargets {
+    std::size_t padded_count; ///< a multiple of tile_width
+    const Real *x, *y, *z;    ///< length
+    const Real* q;            ///< half the squared softening, length^2, >= 0
+    Real* potential;          ///< potential / G, mass / length
+};
+
+/// Bodies that attract. They need no padding and no alignment.
+template <class Real>
+struct GravitySources {
+    std::size_t count;
+    const Real *x, *y, *z; ///< length
+    const Real* mass;
+    const Real* q; ///< half the squared softening, length^2, >= 0
+};
+
+/// Gravity in one precision. With d = source - target and r^2 = |d|^2 + q_target + q_source they add
+///  - acceleration  sum m d / r^3,
+///  - tide          sum m (3 d d^T / r^5 - 1 / r^3), the acceleration's derivative by the target's place,
+///  - potential     -sum m / r.
+///
+/// Source s and target t are the same body, and no pair, when s == t + self. Every other pair counts,
+/// coincident ones too, but for those with r = 0, which contribute nothing. The caller chooses units so
+/// that no m / r^3 overflows. Sources are summed in order: all processors compute the same bits.
+template <class Real>
+struct GravityKernels {
+    void (*add_acceleration)(const GravityTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);
+    void (*add_acceleration_and_tide)(const GravityTargets<Real>&, const GravitySources<Real>&,
+                                      std::ptrdiff_t self);
+    void (*add_potential)(const PotentialTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);
+};
+
+/// One instruction set's kernels.
+struct KernelTable {
+    const char* name; ///< the x86-64 level: "baseline", "v3" or "v4"
+    GravityKernels<float> in_float;
+    GravityKernels<double> in_double;
+};
+
+} // namespace slod::simd

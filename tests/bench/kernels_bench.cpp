@@ -1,0 +1,135 @@
+// Pairs per second of the gravity kernels, one thread, by kernel, precision and instruction set.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "simd/kernels.hpp"
+
+namespace {
+
+using namespace slod::simd;
+
+/// An interaction list as gravity's group walk makes them; all of it stays in the first-level cache.
+constexpr std::size_t target_count = 64;
+constexpr std::size_t source_count = 512;
+
+constexpr std::size_t round_count = 9;
+constexpr std::chrono::milliseconds round_length(10);
+
+template <class Real>
+struct Arrays {
+    std::array<std::vector<Real>, 4> at;   // x, y, z, q of the targets
+    std::array<std::vector<Real>, 5> from; // x, y, z, mass, q of the sources
+    std::array<std::vector<Real>, 9> sums;
+
+    Arrays()
+    {
+        std::mt19937_64 bits(1);
+        std::uniform_real_distribution<Real> uniform(0, 1);
+        const auto fill = [&](std::vector<Real>& array, std::size_t count) {
+            array.resize(count);
+            std::ranges::generate(array, [&] { return uniform(bits); });
+        };
+        for (auto& array : at)
+            fill(array, target_count);
+        for (auto& array : from)
+            fill(array, source_count);
+        for (auto& array : sums)
+            array.assign(target_count, 0);
+    }
+
+    GravityTargets<Real> targets()
+    {
+        return {target_count,   at[0].data(),   at[1].data(),   at[2].data(),   at[3].data(),
+                sums[0].data(), sums[1].data(), sums[2].data(), sums[3].data(), sums[4].data(),
+                sums[5].data(), sums[6].data(), sums[7].data(), sums[8].data()};
+    }
+
+    PotentialTargets<Real> potential_targets()
+    {
+        return {target_count, at[0].data(), at[1].data(), at[2].data(), at[3].data(), sums[0].data()};
+    }
+
+    GravitySources<Real> sources() const
+    {
+        return {source_count, from[0].data(), from[1].data(), from[2].data(), from[3].data(), from[4].data()};
+    }
+};
+
+/// Pairs per second of the best of some rounds: what disturbs only ever slows.
+template <class Kernel>
+double pairs_per_second(const Kernel& kernel)
+{
+    using Clock = std::chrono::steady_clock;
+    double best = 0;
+    for (std::size_t round = 0; round < round_count; ++round) {
+        const auto start = Clock::now();
+        double calls = 0;
+        std::chrono::duration<double> spent{};
+        do {
+            kernel();
+            ++calls;
+            spent = Clock::now() - start;
+        } while (spent < round_length);
+        best = std::max(best, calls * target_count * source_count / spent.count());
+    }
+    return best;
+}
+
+template <class Real>
+nlohmann::ordered_json measure(const KernelTable& table)
+{
+    Arrays<Real> arrays;
+    const auto targets = arrays.targets();
+    const auto potential_targets = arrays.potential_targets();
+    const auto sources = arrays.sources();
+    const GravityKernels<Real>& kernels = gravity_kernels<Real>(table);
+    return {
+        {"acceleration", pairs_per_second([&] { kernels.add_acceleration(targets, sources, no_self); })},
+        {"acceleration_and_tide",
+         pairs_per_second([&] { kernels.add_acceleration_and_tide(targets, sources, no_self); })},
+        {"potential", pairs_per_second([&] { kernels.add_potential(potential_targets, sources, no_self); })},
+    };
+}
+
+void print_row(const char* isa, const char* precision, const nlohmann::ordered_json& rates)
+{
+    std::printf("%-10s %-10s", isa, precision);
+    for (const auto& [kernel, rate] : rates.items())
+        std::printf(" %22.3f", rate.get<double>() * 1e-9);
+    std::printf("\n");
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App app("Measures the gravity kernels: 1e9 pairs per second, one thread.");
+    bool as_json = false;
+    app.add_flag("--json", as_json, "Print the pairs per second as one JSON object on the last line, too.");
+    CLI11_PARSE(app, argc, argv);
+
+    nlohmann::ordered_json rates;
+    std::printf("%-10s %-10s %22s %22s %22s\n", "isa", "precision", "acceleration", "acceleration_and_tide",
+                "potential");
+    for (const KernelTable* table : runnable_kernels()) {
+        auto& in = rates[table->name];
+        print_row(table->name, "float", in["float"] = measure<float>(*table));
+        print_row(table->name, "double", in["double"] = measure<double>(*table));
+    }
+    if (as_json) {
+        const nlohmann::ordered_json report = {
+            {"benchmark", "kernels"},    {"threads", 1},
+            {"targets", target_count},   {"sources", source_count},
+            {"fastest", kernels().name}, {"interactions_per_second", rates}};
+        std::printf("%s\n", report.dump().c_str());
+    }
+}
