@@ -11,18 +11,18 @@ endif()
 
 option(SLOD_PLAIN_THREADS "Run parallel loops on std::jthread, for ThreadSanitizer, which cannot see into libtbb" OFF)
 
-# slod_layer(<folder> SOURCES <files> [DEPENDS <libraries>]): one library slod_<name> per folder.
+# slod_layer(<folder> SOURCES <files> [DEPENDS <libraries>] [PRIVATE <libraries>]): one library slod_<name> per folder.
 # Its headers are found only by those who link it: the include root of a layer is a folder of its
 # own that holds nothing but a link to the layer, so an include against the arrows does not build.
 function(slod_layer name)
-    cmake_parse_arguments(LAYER "" "" "SOURCES;DEPENDS" ${ARGN})
+    cmake_parse_arguments(LAYER "" "" "SOURCES;DEPENDS;PRIVATE" ${ARGN})
     set(root ${CMAKE_BINARY_DIR}/layers/${name})
     file(MAKE_DIRECTORY ${root})
     file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
     if(LAYER_SOURCES)
         add_library(slod_${name} STATIC ${LAYER_SOURCES})
         target_include_directories(slod_${name} PUBLIC ${root})
-        target_link_libraries(slod_${name} PUBLIC ${LAYER_DEPENDS} PRIVATE slod_options)
+        target_link_libraries(slod_${name} PUBLIC ${LAYER_DEPENDS} PRIVATE ${LAYER_PRIVATE} slod_options)
     else()
         add_library(slod_${name} INTERFACE)
         target_include_directories(slod_${name} INTERFACE ${root})

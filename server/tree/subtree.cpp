@@ -175,8 +175,8 @@ PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, doub
     const PoolId right = take_pool(tree, {pair.index + 1});
     Pool& old_pool = tree.pools[pool.index];
     old_pool.node = pair;
-    tree.pools[right.index].life = old_pool.life;
     tree.pools[right.index].phase = old_pool.phase;
+    tree.pools[right.index].turn_frame = old_pool.turn_frame;
     tree.pools[right.index].due_frame = old_pool.due_frame;
 
     for (ClusterSlot slot = old_pool.first; slot.valid();) {

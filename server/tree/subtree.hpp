@@ -32,9 +32,11 @@ struct Pool {
     ClusterSlot first;   ///< head of the list of its clusters
     std::uint32_t clusters = 0;
     std::uint32_t members = 0;
-    std::uint32_t life = 0;      ///< frames that its clusters live, counted from their forming
-    std::uint32_t phase = 0;     ///< spreads the pools' turns over the frames
-    std::uint64_t due_frame = 0; ///< end of the clusters' life
+    std::uint32_t phase = 0;      ///< spreads the pools' turns over the frames
+    std::uint64_t turn_frame = 0; ///< when its clusters were formed
+    std::uint64_t due_frame = 0;  ///< when their life ends
+
+    std::uint64_t life() const { return due_frame - turn_frame; } ///< frames
 };
 
 /// The subtree of one region of interest: a sparse uniform grid whose cells are no wider than the maximum

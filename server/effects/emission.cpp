@@ -1,0 +1,90 @@
+#include "effects/emission.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace slod {
+
+Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life)
+    : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), cohorts_(emitters_.size())
+{}
+
+std::uint64_t Emission::update(SlodTree& tree, const UpdateContext& context, bool kicked)
+{
+    std::uint64_t born = 0;
+    new_clusters_.clear();
+    for (std::size_t emitter = 0; emitter < emitters_.size(); ++emitter) {
+        newborns_.clear();
+        emitters_[emitter].emit(context.frame, context.step, fields_, newborns_);
+        born += newborns_.size();
+        const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
+        if (joined < newborns_.size())
+            found(tree, emitter, joined, context);
+    }
+    return born;
+}
+
+/// Puts the first newborns into the open cluster as far as it has room; returns how many.
+std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context, bool kicked)
+{
+    ClusterTable& clusters = context.store.clusters;
+    const std::size_t slot = cohort.slot.index;
+    if (!cohort.slot.valid() || !clusters.alive(slot) || clusters.generation[slot] != cohort.generation)
+        return 0;
+    const PoolRef pool{clusters.region[slot], clusters.pool[slot]};
+    const std::uint32_t most = std::min(tree.of(pool).max_cluster_size(), clusters.slab[slot].capacity);
+    const std::size_t room = most - std::min(most, clusters.stored[slot]);
+    const std::size_t joining = std::min(newborns_.size(), room);
+    for (std::size_t i = 0; i < joining; ++i) {
+        Newborn& born = newborns_[i];
+        // The closing kick will act for half a step; the newborn was there for its age.
+        if (kicked)
+            born.particle.velocity += (born.age - 0.5 * context.step) * clusters.acceleration[slot];
+        insert_member(context.store, cohort.slot, born.particle, context.frame);
+    }
+    tree.pool(pool).members += std::uint32_t(joining);
+    return joining;
+}
+
+/// Forms clusters of the newborns from `first` on. A single one that is not full stays open as the cohort.
+void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, const UpdateContext& context)
+{
+    ClusterTable& clusters = context.store.clusters;
+    const auto count = std::uint32_t(newborns_.size() - first);
+    const double lifetime = emitters_[emitter].settings().lifetime;
+    const double ahead = std::isfinite(lifetime) ? 0.5 * lifetime : mid_life_;
+    grouping_.clear();
+    grouping_.resize(count);
+    double age = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Newborn& born = newborns_[first + i];
+        grouping_.particles[i] = born.particle;
+        grouping_.place[i] = born.particle.position + ahead * born.particle.velocity;
+        age += born.age / count;
+    }
+    std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
+    const std::uint16_t region = tree.region_at(grouping_.particles.front().position);
+    const std::uint32_t most = tree.subtrees[region].max_cluster_size();
+    const std::uint32_t parts = clusters_for(count, most);
+    grouping_.groups.push_back({{region, {}}, 0, count, parts, 0});
+    const bool open = parts == 1 && count < most;
+    form_groups(grouping_, open ? double(most) / count - 1 : 0.0, context);
+    for (const ClusterSlot slot : grouping_.slots) {
+        const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
+        link(tree.of(pool), clusters, pool.pool, slot);
+        new_clusters_.push_back({slot, age});
+    }
+    cohorts_[emitter] = open ? clusters.id(grouping_.slots.front().index) : ClusterId{};
+}
+
+std::vector<std::uint64_t> Emission::counts_before(double time) const
+{
+    std::vector<std::uint64_t> counts;
+    for (const Emitter& emitter : emitters_)
+        counts.push_back(emitter.count_before(time));
+    return counts;
+}
+
+} // namespace slod

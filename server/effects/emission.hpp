@@ -1,0 +1,48 @@
+#pragma once
+
+#include "effects/emitter.hpp"
+#include "tree/grouping.hpp"
+#include "tree/slod_tree.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace slod {
+
+/// Brings newborn particles into clusters of their own: an emitter's particles fill one open cluster, its
+/// cohort, through the inverse flow map until that is full; many at once are divided by where they will be
+/// in the middle of their lives.
+class Emission {
+public:
+    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped.
+    Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life);
+
+    /// A cluster formed in this frame, and the mean age of its members at the frame's end.
+    struct NewCluster {
+        ClusterSlot slot;
+        double age;
+    };
+
+    /// Emits frame `context.frame`; returns how many particles were born. With `kicked`, particles that
+    /// join a cohort get its acceleration for their own time only.
+    std::uint64_t update(SlodTree& tree, const UpdateContext& context, bool kicked);
+
+    const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
+
+    /// Particles each emitter has started before `time`: the state of the random numbers.
+    std::vector<std::uint64_t> counts_before(double time) const;
+
+private:
+    std::size_t join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context, bool kicked);
+    void found(SlodTree& tree, std::size_t emitter, std::size_t first, const UpdateContext& context);
+
+    std::vector<Emitter> emitters_;
+    UniformFields fields_;
+    double mid_life_;
+    std::vector<ClusterId> cohorts_; ///< by emitter
+    std::vector<Newborn> newborns_;
+    std::vector<NewCluster> new_clusters_;
+    Grouping grouping_;
+};
+
+} // namespace slod

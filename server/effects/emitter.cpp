@@ -1,0 +1,73 @@
+#include "effects/emitter.hpp"
+
+#include "core/parallel.hpp"
+#include "core/portable_math.hpp"
+#include "core/random.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace slod {
+
+Emitter::Emitter(const EmitterSettings& settings, std::uint32_t index, std::uint8_t kind, std::uint64_t seed)
+    : settings_(settings), index_(index), kind_(kind), seed_(seed), axis_(settings.direction.normalized()),
+      cone_cosine_(portable_sincos(settings.cone_angle_deg * std::numbers::pi / 180).cosine)
+{
+    int flattest = 0;
+    axis_.cwiseAbs().minCoeff(&flattest);
+    side_ = axis_.cross(Vector3d(Vector3d::Unit(flattest))).normalized();
+    other_side_ = axis_.cross(side_);
+}
+
+std::uint64_t Emitter::count_before(double time) const
+{
+    const double running = std::min(time, settings_.stop) - settings_.start;
+    return running > 0 ? std::uint64_t(std::ceil(running * settings_.rate)) : 0;
+}
+
+void Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields,
+                   std::vector<Newborn>& newborns) const
+{
+    const double end = double(frame) * step;
+    const std::uint64_t first = count_before(double(frame - 1) * step);
+    const std::uint64_t count = count_before(end) - first;
+    const std::size_t before = newborns.size();
+    newborns.resize(before + count);
+    for_each_block(count, 1024, [&](std::size_t begin, std::size_t last) {
+        for (std::size_t i = begin; i < last; ++i)
+            newborns[before + i] = newborn(first + i, end, step, fields);
+    });
+    std::erase_if(newborns, [&](const Newborn& born) { return born.particle.expiry_frame <= frame; });
+}
+
+Newborn Emitter::newborn(std::uint64_t k, double end, double step, const UniformFields& fields) const
+{
+    const double start = settings_.start + double(k) / settings_.rate;
+    Newborn born;
+    born.age = std::max(end - start, 0.0);
+    born.particle.position = settings_.position;
+    born.particle.velocity = velocity_at_birth(k);
+    fields.over(born.age).apply(born.particle.position, born.particle.velocity);
+    born.particle.id = (std::uint64_t{index_} + 1) << id_shift | k;
+    born.particle.mass = float(settings_.particle_mass);
+    born.particle.kind = kind_;
+    const double last_frame = std::ceil((start + settings_.lifetime) / step);
+    if (last_frame < double(Particle::never))
+        born.particle.expiry_frame = std::uint32_t(last_frame);
+    return born;
+}
+
+Vector3d Emitter::velocity_at_birth(std::uint64_t k) const
+{
+    Random random(seed_, index_, k);
+    const double cosine = 1 - random.uniform() * (1 - cone_cosine_);
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    const auto turn = portable_sincos(2 * std::numbers::pi * random.uniform());
+    const double speed = settings_.speed * (1 + settings_.speed_spread * (2 * random.uniform() - 1));
+    return speed * (cosine * axis_ + sine * (turn.cosine * side_ + turn.sine * other_side_));
+}
+
+} // namespace slod

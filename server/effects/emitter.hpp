@@ -1,0 +1,49 @@
+#pragma once
+
+#include "cluster/particles.hpp"
+#include "effects/settings.hpp"
+#include "effects/uniform_fields.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace slod {
+
+/// A particle on its way into the simulation, and how long before the frame's end it was born.
+struct Newborn {
+    Particle particle; ///< as it is at the end of the frame
+    double age = 0;
+};
+
+/// One emitter. Particle k starts at start + k / rate exactly, whatever the frames; everything about it
+/// depends on the seed, the emitter and k alone.
+class Emitter {
+public:
+    /// `index` is the emitter's place in the scene, `kind` that of its particles' kind.
+    Emitter(const EmitterSettings& settings, std::uint32_t index, std::uint8_t kind, std::uint64_t seed);
+
+    /// Particles started before `time`.
+    std::uint64_t count_before(double time) const;
+
+    /// Appends the particles that start in frame `frame` (of length `step`, ending at frame * step), moved
+    /// to the frame's end in `fields`. Those whose lifetime ends within the frame are left out.
+    void emit(std::uint64_t frame, double step, const UniformFields& fields, std::vector<Newborn>& newborns) const;
+
+    const EmitterSettings& settings() const { return settings_; }
+
+    /// Ids of emitted particles have the emitter's place plus one above this bit, and k below it.
+    static constexpr int id_shift = 48;
+
+private:
+    Newborn newborn(std::uint64_t k, double end, double step, const UniformFields& fields) const;
+    Vector3d velocity_at_birth(std::uint64_t k) const;
+
+    EmitterSettings settings_;
+    std::uint32_t index_;
+    std::uint8_t kind_;
+    std::uint64_t seed_;
+    Vector3d axis_, side_, other_side_; ///< orthonormal
+    double cone_cosine_;
+};
+
+} // namespace slod

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "cluster/flow_map.hpp"
+#include "effects/settings.hpp"
+
+#include <optional>
+
+namespace slod {
+
+/// Uniform gravity g, linear drag k and uniform wind u together: dv/dt = g - k (v - u). Linear in x and v
+/// with the same coefficients for all, so clusters follow it exactly.
+struct UniformFields {
+    Vector3d gravity{0, 0, 0};
+    double drag = 0;
+    Vector3d wind{0, 0, 0};
+
+    UniformFields() = default;
+    UniformFields(const std::optional<UniformGravitySettings>& uniform_gravity,
+                  const std::optional<LinearDragSettings>& linear_drag,
+                  const std::optional<UniformWindSettings>& uniform_wind);
+
+    /// The exact flow over `time`.
+    Propagator over(double time) const;
+};
+
+} // namespace slod

@@ -1,0 +1,46 @@
+#include "sim/integrator.hpp"
+
+#include "core/parallel.hpp"
+
+namespace slod {
+namespace {
+
+constexpr std::size_t block = 1024;
+
+} // namespace
+
+void kick_cluster(ClusterTable& clusters, std::size_t slot, double step)
+{
+    clusters.velocity[slot] += step * clusters.acceleration[slot];
+    if (!clusters.columns.map)
+        return;
+    Symmetric3 tide = clusters.tide[slot];
+    tide.xx -= clusters.closure[slot];
+    tide.yy -= clusters.closure[slot];
+    tide.zz -= clusters.closure[slot];
+    kick(clusters.map[slot], step, tide);
+}
+
+void kick_clusters(ClusterTable& clusters, double step)
+{
+    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t slot = first; slot < last; ++slot)
+            if (clusters.alive(slot))
+                kick_cluster(clusters, slot, step);
+    });
+}
+
+void propagate_clusters(ClusterTable& clusters, const Propagator& step)
+{
+    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t slot = first; slot < last; ++slot) {
+            if (!clusters.alive(slot))
+                continue;
+            step.apply(clusters.position[slot], clusters.velocity[slot]);
+            if (clusters.columns.map)
+                propagate(clusters.map[slot], step);
+        }
+    });
+}
+
+} // namespace slod

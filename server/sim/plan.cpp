@@ -1,0 +1,110 @@
+#include "sim/plan.hpp"
+
+#include "cluster/cluster_table.hpp"
+#include "cluster/member_pool.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slod {
+namespace {
+
+void decide_masses(Plan& plan, const SimulationSettings& settings, const ParticleSet& initial)
+{
+    std::vector<float> masses;
+    const auto note = [&](float mass) {
+        if (masses.empty() || masses.front() != mass)
+            masses.push_back(mass);
+    };
+    for (const Particle& particle : initial)
+        if (masses.size() < 2)
+            note(particle.mass);
+    for (const EmitterSettings& emitter : settings.emitters)
+        note(float(emitter.particle_mass));
+    plan.several_masses = masses.size() > 1;
+    plan.uniform_mass = masses.empty() ? 0 : masses.front();
+}
+
+void decide_map(Plan& plan, const SimulationSettings& settings)
+{
+    const bool position_dependent = settings.gravity.has_value();
+    const Motion motion = settings.motion.motion;
+    plan.unclustered = settings.background.max_cluster_size < 2;
+    if (plan.unclustered || motion == Motion::Rigid)
+        plan.map = MapKind::Identity;
+    else if (position_dependent && motion == Motion::Flow)
+        plan.map = MapKind::Full;
+    else
+        plan.map = MapKind::Scalar;
+    plan.map_is_exact = plan.unclustered || (plan.map == MapKind::Scalar && !position_dependent);
+    plan.clocked = !plan.map_is_exact && plan.map != MapKind::Identity;
+    plan.merging = !plan.unclustered && motion == Motion::Rigid;
+}
+
+void decide_phases(Plan& plan, const SimulationSettings& settings)
+{
+    const auto runs = [&](Phase phase, bool needed) { plan.runs[std::size_t(phase)] = needed; };
+    const bool kicked = settings.gravity.has_value();
+    runs(Phase::Commands, true);
+    runs(Phase::OpenKick, kicked);
+    runs(Phase::Propagate, true);
+    runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives);
+    runs(Phase::Update, kicked || !plan.unclustered);
+    runs(Phase::Moments, kicked);
+    runs(Phase::Forces, kicked);
+    runs(Phase::CloseKick, kicked);
+    runs(Phase::Control, false);
+    runs(Phase::Snapshot, true);
+}
+
+void list_columns(Plan& plan, const SimulationSettings& settings)
+{
+    plan.member_columns = {{"offset and relative velocity", sizeof(FormedOffset)}, {"particle id", 8}};
+    const auto member = [&](bool needed, std::string_view name, std::size_t bytes) {
+        if (needed)
+            plan.member_columns.push_back({name, bytes});
+    };
+    member(plan.several_masses, "mass", 4);
+    member(plan.several_kinds, "kind", 1);
+    member(plan.finite_lives, "expiry frame", 4);
+
+    plan.cluster_columns = {{"position and velocity", 2 * sizeof(Vector3d)},
+                            {"moments", sizeof(Moments)},
+                            {"bounds and softening", 3 * sizeof(float)},
+                            {"slab and counts", sizeof(Slab) + 2 * sizeof(std::uint32_t)},
+                            {"identity and place in the tree", 2 * 8 + 4 + 2 + 3 * 4}};
+    const auto cluster = [&](bool needed, std::string_view name, std::size_t bytes) {
+        if (needed)
+            plan.cluster_columns.push_back({name, bytes});
+    };
+    cluster(plan.map == MapKind::Full, "flow map and closure", sizeof(FlowMap) + sizeof(double));
+    cluster(plan.several_masses, "moments by number", sizeof(Moments));
+    cluster(plan.finite_lives, "next expiry", 4);
+    cluster(settings.gravity.has_value(), "acceleration and variance", sizeof(Vector3d) + sizeof(double));
+    cluster(plan.clocked, "tidal tensor", sizeof(Symmetric3));
+}
+
+} // namespace
+
+Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial)
+{
+    Plan plan;
+    plan.several_kinds = settings.kinds.size() > 1;
+    const auto mortal = [](const EmitterSettings& emitter) { return std::isfinite(emitter.lifetime); };
+    const auto expires = [](const Particle& particle) { return particle.expiry_frame != Particle::never; };
+    plan.finite_lives = std::any_of(settings.emitters.begin(), settings.emitters.end(), mortal) ||
+                        std::any_of(initial.begin(), initial.end(), expires);
+    decide_masses(plan, settings, initial);
+    decide_map(plan, settings);
+    decide_phases(plan, settings);
+    list_columns(plan, settings);
+    plan.effects = {{"gravity", settings.gravity.has_value(), "linearised"},
+                    {"uniform_gravity", settings.uniform_gravity.has_value(), "linear"},
+                    {"linear_drag", settings.linear_drag.has_value(), "linear"},
+                    {"uniform_wind", settings.uniform_wind.has_value(), "linear"},
+                    {"emitter", !settings.emitters.empty(), "births"},
+                    {"lifetime", plan.finite_lives, "deaths"}};
+    return plan;
+}
+
+} // namespace slod

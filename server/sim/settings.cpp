@@ -1,0 +1,108 @@
+#include "sim/settings.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace slod {
+
+namespace {
+
+/// A kind's row is kept in one byte.
+constexpr std::size_t max_kinds = std::size_t{std::numeric_limits<std::uint8_t>::max()} + 1;
+
+std::string in_quotes(const std::string& text)
+{
+    return '"' + text + '"';
+}
+
+bool is_name(std::string_view name)
+{
+    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+    return !name.empty() && name.size() <= 32 && name.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+/// Names are valid, and each is the first of its sort.
+template <class Named>
+void check_names(const std::string& table, const std::vector<Named>& all, Problems& found)
+{
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string key = table + "." + std::to_string(i) + ".name";
+        const std::string& name = all[i].name;
+        if (!is_name(name)) {
+            found.push_back(key + " = " + in_quotes(name) + " is no name; use 1 to 32 of a-z, 0-9, _ and -.");
+            continue;
+        }
+        const auto same = std::find_if(all.begin(), all.begin() + std::ptrdiff_t(i),
+                                       [&](const Named& earlier) { return earlier.name == name; });
+        const auto first = same - all.begin();
+        if (first < std::ptrdiff_t(i))
+            found.push_back(key + " = " + in_quotes(name) + " is the name of " + table + "." +
+                            std::to_string(first) + " too; give each its own.");
+    }
+}
+
+void check_kinds(const std::vector<ParticleKind>& kinds, Problems& found)
+{
+    if (kinds.empty())
+        found.push_back("kind is missing: add a [[kind]] with a name.");
+    if (kinds.size() > max_kinds)
+        found.push_back("kind appears " + std::to_string(kinds.size()) + " times; use at most " +
+                        std::to_string(max_kinds) + ".");
+    check_names("kind", kinds, found);
+}
+
+void check_emitter(const std::string& key, const EmitterSettings& emitter,
+                   const std::vector<ParticleKind>& kinds, Problems& found)
+{
+    std::string known;
+    bool kind_exists = false;
+    for (const ParticleKind& kind : kinds) {
+        kind_exists = kind_exists || kind.name == emitter.kind;
+        known += (known.empty() ? "" : ", ") + kind.name;
+    }
+    if (!kind_exists)
+        found.push_back(key + ".kind = " + in_quotes(emitter.kind) + " is no kind of the scene; " +
+                        (known.empty() ? "add a [[kind]] of that name." : "its kinds are " + known + "."));
+    // Normal: the square neither vanishes nor overflows when the direction is normalised.
+    if (!std::isnormal(emitter.direction.squaredNorm()))
+        found.push_back(key +
+                        ".direction has no usable length; give the axis of the cone, such as [0, 0, 1].");
+}
+
+void check_lives(const MotionSettings& motion, Problems& found)
+{
+    const auto check = [&](const std::string& key, std::uint32_t frames) {
+        if (!std::has_single_bit(frames))
+            found.push_back("motion." + key + " = " + std::to_string(frames) + " is no power of two; use " +
+                            std::to_string(std::bit_floor(std::max(frames, 1u))) + ".");
+    };
+    check("shortest_life", motion.shortest_life);
+    check("longest_life", motion.longest_life);
+    if (motion.shortest_life > motion.longest_life)
+        found.push_back("motion.shortest_life = " + std::to_string(motion.shortest_life) +
+                        " is longer than motion.longest_life = " + std::to_string(motion.longest_life) +
+                        "; use at most that.");
+}
+
+} // namespace
+
+Problems problems(const SimulationSettings& settings)
+{
+    Problems found;
+    check_kinds(settings.kinds, found);
+    check_names("emitter", settings.emitters, found);
+    for (std::size_t i = 0; i < settings.emitters.size(); ++i)
+        check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);
+    check_lives(settings.motion, found);
+    if (settings.uniform_wind && !settings.linear_drag)
+        found.push_back(
+            "uniform_wind acts through the air's drag alone and the scene has none; add [linear_drag] or "
+            "leave [uniform_wind] out.");
+    return found;
+}
+
+} // namespace slod

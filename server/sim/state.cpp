@@ -1,0 +1,171 @@
+#include "sim/state.hpp"
+
+#include "core/assert.hpp"
+#include "gravity/direct_sum.hpp"
+#include "sim/integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slod {
+namespace {
+
+const simd::KernelTable* kernels_named(std::string_view isa)
+{
+    const simd::KernelTable* found = simd::kernels(isa);
+    SLOD_ASSERT(found != nullptr);
+    return found;
+}
+
+ClusterTable::Columns cluster_columns(const Plan& plan, const SimulationSettings& settings)
+{
+    return {.map = plan.map == MapKind::Full,
+            .tide = plan.clocked,
+            .acceleration = settings.gravity.has_value(),
+            .counting_moments = plan.several_masses,
+            .expiry = plan.finite_lives};
+}
+
+MapRule map_rule(const Plan& plan, const UniformFields& fields, double step)
+{
+    return {plan.map, fields.drag, step};
+}
+
+/// Side of the background's grid cells: the maximum breadth, or, when that is unlimited, a power of two
+/// that spans the initial particles, for the k-d trees to refine.
+double background_cell_side(const RegionSettings& background, const ParticleSet& initial)
+{
+    if (std::isfinite(background.max_breadth))
+        return background.max_breadth;
+    double extent = 0;
+    for (const Particle& particle : initial)
+        extent = std::max(extent, (particle.position - initial.front().position).cwiseAbs().maxCoeff());
+    return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) + 1) : 1.0;
+}
+
+SlodTree tree_of(const SimulationSettings& settings, const ParticleSet& initial)
+{
+    SlodTree tree;
+    tree.subtrees.emplace_back(settings.background, std::uint16_t{0},
+                               background_cell_side(settings.background, initial));
+    return tree;
+}
+
+std::vector<Emitter> emitters_of(const SimulationSettings& settings)
+{
+    std::vector<Emitter> emitters;
+    for (const EmitterSettings& emitter : settings.emitters) {
+        const auto named = [&](const ParticleKind& kind) { return kind.name == emitter.kind; };
+        const auto kind = std::find_if(settings.kinds.begin(), settings.kinds.end(), named);
+        SLOD_ASSERT(kind != settings.kinds.end());
+        emitters.emplace_back(emitter, std::uint32_t(emitters.size()),
+                              std::uint8_t(kind - settings.kinds.begin()), settings.seed);
+    }
+    return emitters;
+}
+
+} // namespace
+
+Simulation::State::State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options)
+    : settings(scene), plan(compile_plan(scene, initial)), kernels(kernels_named(options.isa)),
+      tick(options.tick), gravitational_constant(scene.units.gravitational_constant()),
+      fields(scene.uniform_gravity, scene.linear_drag, scene.uniform_wind),
+      propagator(fields.over(scene.time.step)),
+      store(cluster_columns(plan, scene), {plan.several_masses, plan.several_kinds, plan.finite_lives},
+            map_rule(plan, fields, scene.time.step)),
+      tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(plan.merging, context()),
+      emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step),
+      particle_count(initial.size())
+{
+    if (scene.gravity)
+        gravitational_constant *= scene.gravity->strength;
+    store.uniform_mass = plan.uniform_mass;
+    for (const ParticleKind& kind : scene.kinds)
+        store.kind_softening_squared.push_back(kind.softening * kind.softening);
+    open_frame();
+    reforming.found(tree, initial, frame);
+    if (scene.gravity) {
+        measure_moments();
+        evaluate_forces();
+    }
+    if (plan.clocked) {
+        // The first forces set the clocks; what was formed without them is formed anew.
+        UpdateCounts ignored;
+        reforming.reform_all(tree, frame, ignored);
+        measure_moments();
+        evaluate_forces();
+    }
+    if constexpr (validating)
+        SLOD_ASSERT(problems().empty());
+    take_snapshot({});
+}
+
+void Simulation::State::open_frame()
+{
+    store.members.recycle(frame);
+    const std::uint64_t moving = plan.clocked ? particle_count : particle_count / 8;
+    store.members.reserve(moving + moving / 2, store.clusters.alive_count() / 2 + 1024);
+    store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
+}
+
+void Simulation::State::kick()
+{
+    kick_clusters(store.clusters, 0.5 * settings.time.step);
+}
+
+/// Newborn clusters are kicked for as long as they have existed, the others for half a step.
+void Simulation::State::close_kick()
+{
+    kick_clusters(store.clusters, 0.5 * settings.time.step);
+    for (const Emission::NewCluster& born : emission.new_clusters())
+        if (store.clusters.alive(born.slot.index) && store.clusters.formed_frame[born.slot.index] == frame)
+            kick_cluster(store.clusters, born.slot.index, born.age - 0.5 * settings.time.step);
+}
+
+void Simulation::State::propagate()
+{
+    propagate_clusters(store.clusters, propagator);
+}
+
+void Simulation::State::emit()
+{
+    if (plan.finite_lives)
+        snapshot.counts.died = expiry.update(tree, context());
+    snapshot.counts.born = emission.update(tree, context(), plan.has(Phase::CloseKick));
+    particle_count += snapshot.counts.born - snapshot.counts.died;
+}
+
+void Simulation::State::update()
+{
+    if (plan.clocked)
+        reforming.update(tree, frame, snapshot.counts);
+    else
+        regrouping.update(tree, frame, snapshot.counts);
+}
+
+void Simulation::State::measure_moments()
+{
+    measure_shapes(store, *settings.gravity, gravitational_constant, frame);
+    build(view, tree, store.clusters, *settings.gravity);
+}
+
+void Simulation::State::evaluate_forces()
+{
+    sum_directly(view, *kernels, settings.gravity->precision, gravitational_constant, store.clusters);
+    const std::uint64_t bodies = view.body_count();
+    snapshot.counts.interactions = bodies * (bodies - (bodies > 0 ? 1 : 0));
+}
+
+Problems Simulation::State::problems() const
+{
+    Problems found = slod::problems(tree, store.clusters);
+    std::uint64_t members = 0;
+    for (const std::uint32_t count : store.clusters.count)
+        members += count;
+    if (members != particle_count)
+        found.push_back("clusters hold " + std::to_string(members) + " particles of " +
+                        std::to_string(particle_count));
+    return found;
+}
+
+} // namespace slod

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "cluster/forming.hpp"
+#include "effects/emission.hpp"
+#include "gravity/force_view.hpp"
+#include "sim/simulation.hpp"
+#include "simd/kernels.hpp"
+#include "tree/expire.hpp"
+#include "tree/reforming.hpp"
+#include "tree/regrouping.hpp"
+#include "tree/slod_tree.hpp"
+
+namespace slod {
+
+/// What the simulation consists of, and its phases.
+struct Simulation::State {
+    State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options);
+
+    void open_frame();   ///< Commands: recycles member slabs, and makes room so that no phase has to
+    void kick();
+    void close_kick();
+    void propagate();
+    void emit();
+    void update();
+    void measure_moments();
+    void evaluate_forces();
+    void take_snapshot(const Request& request);
+    void copy_clusters();
+
+    /// Runs and times a phase, if the plan has it.
+    template <class Work>
+    void run(Phase phase, const Work& work)
+    {
+        if (!plan.has(phase))
+            return;
+        const std::int64_t start = tick ? tick() : 0;
+        work();
+        if (tick)
+            snapshot.profile[phase] += double(tick() - start) * 1e-6;
+    }
+
+    UpdateContext context() { return {store, frame, settings.time.step}; }
+    Problems problems() const;
+
+    SimulationSettings settings;
+    Plan plan;
+    const simd::KernelTable* kernels;
+    Tick tick;
+    double gravitational_constant;
+    UniformFields fields;
+    Propagator propagator; ///< of one frame
+
+    ClusterStore store;
+    SlodTree tree;
+    Reforming reforming;
+    Regrouping regrouping;
+    Expiry expiry;
+    Emission emission;
+    ForceView view;
+
+    std::uint64_t frame = 0; ///< frames completed, or being completed within a step
+    std::uint64_t particle_count = 0;
+    Snapshot snapshot;
+};
+
+} // namespace slod

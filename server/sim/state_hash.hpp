@@ -1,0 +1,21 @@
+#pragma once
+
+#include "cluster/forming.hpp"
+#include "tree/slod_tree.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace slod {
+
+/// What of the simulation's state is outside the clusters and the tree.
+struct RunState {
+    std::uint64_t frame = 0;
+    std::span<const std::uint64_t> random_counters; ///< particles started, by emitter
+};
+
+/// Covers centres, velocities, maps, moments, members, masses, ids, the tree with its regions' settings and
+/// the pools' turns, and the random counters, bit by bit (XXH3). Free slots and memory places do not enter.
+std::uint64_t hash_state(const ClusterStore& store, const SlodTree& tree, const RunState& run);
+
+} // namespace slod

@@ -1,0 +1,62 @@
+#include "core/parallel.hpp"
+#include "sim/state.hpp"
+
+namespace slod {
+namespace {
+
+std::array<float, 6> covariance(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
+{
+    const Moments& moments = store.clusters.counting_moments(slot);
+    const double number = moments.weight > 0 ? moments.weight : 1.0;
+    const Symmetric3 sum = map_position_moments(moments, store.clusters.blocks(slot, store.rule, frame));
+    return {float(sum.xx / number), float(sum.xy / number), float(sum.xz / number),
+            float(sum.yy / number), float(sum.yz / number), float(sum.zz / number)};
+}
+
+} // namespace
+
+void Simulation::State::take_snapshot(const Request& request)
+{
+    snapshot.frame = frame;
+    snapshot.time = double(frame) * settings.time.step;
+    snapshot.counts.particles = particle_count;
+    snapshot.counts.clusters = store.clusters.alive_count();
+    snapshot.counts.pools = tree.pool_count();
+    snapshot.conserved = {};
+    if (request.conserved)
+        snapshot.conserved = conserved_quantities(store, frame);
+    if (request.clusters)
+        copy_clusters();
+}
+
+void Simulation::State::copy_clusters()
+{
+    const ClusterTable& clusters = store.clusters;
+    ClusterStates& out = snapshot.clusters;
+    out.id.clear();
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot)
+        if (clusters.alive(slot))
+            out.id.push_back(clusters.id(slot));
+    const std::size_t count = out.id.size();
+    out.position.resize(count);
+    out.velocity.resize(count);
+    out.mass.resize(count);
+    out.count.resize(count);
+    out.covariance.resize(count);
+    out.formation.resize(count);
+    out.region.resize(count);
+    for_each_block(count, 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const std::size_t slot = out.id[i].slot.index;
+            out.position[i] = clusters.position[slot];
+            out.velocity[i] = clusters.velocity[slot];
+            out.mass[i] = clusters.mass(slot);
+            out.count[i] = clusters.count[slot];
+            out.covariance[i] = covariance(store, slot, frame);
+            out.formation[i] = clusters.formation[slot];
+            out.region[i] = clusters.region[slot];
+        }
+    });
+}
+
+} // namespace slod

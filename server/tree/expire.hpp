@@ -1,0 +1,20 @@
+#pragma once
+
+#include "tree/slod_tree.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace slod {
+
+/// Ends the lives of members whose time has come, and clusters that this leaves empty.
+class Expiry {
+public:
+    /// Returns how many particles died at the end of context.frame.
+    std::uint64_t update(SlodTree& tree, const UpdateContext& context);
+
+private:
+    std::vector<std::uint32_t> died_; ///< by slot
+};
+
+} // namespace slod

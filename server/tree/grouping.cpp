@@ -1,0 +1,119 @@
+#include "tree/grouping.hpp"
+
+#include "core/assert.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slod {
+namespace {
+
+using Group = Grouping::Group;
+
+std::uint32_t largest_part(const Group& group)
+{
+    return (group.count + group.clusters - 1) / group.clusters;
+}
+
+/// Gives every cluster to be a slot and a slab, in the order of the groups.
+void take_slots(Grouping& grouping, double spare, ClusterStore& store)
+{
+    grouping.slots.clear();
+    for (Group& group : grouping.groups) {
+        group.first_slot = std::uint32_t(grouping.slots.size());
+        if (group.clusters == 0)
+            continue;
+        const auto rows = std::uint32_t(std::ceil(largest_part(group) * (1 + spare)));
+        for (std::uint32_t part = 0; part < group.clusters; ++part) {
+            const ClusterSlot slot = store.clusters.take_slot();
+            store.clusters.slab[slot.index] = store.members.allocate(rows);
+            grouping.slots.push_back(slot);
+        }
+    }
+}
+
+void form_group(Grouping& grouping, const Group& group, const UpdateContext& context)
+{
+    if (group.clusters == 0)
+        return;
+    const std::span<DivisionKey> keys(grouping.keys.data() + group.first, group.count);
+    const Vector3d origin = grouping.place[grouping.order[group.first]];
+    for (std::uint32_t i = 0; i < group.count; ++i) {
+        const std::uint32_t index = grouping.order[group.first + i];
+        const Vector3d x = grouping.place[index] - origin;
+        keys[i] = {{float(x.x()), float(x.y()), float(x.z())}, index};
+    }
+    divide(keys, group.clusters);
+    const std::span<Particle> ordered(grouping.ordered.data() + group.first, group.count);
+    for (std::uint32_t i = 0; i < group.count; ++i)
+        ordered[i] = grouping.particles[keys[i].index];
+    for (std::uint32_t part = 0; part < group.clusters; ++part) {
+        const std::uint32_t begin = part_begin(group.count, group.clusters, part);
+        const std::uint32_t end =
+            part + 1 == group.clusters ? group.count : part_begin(group.count, group.clusters, part + 1);
+        const ClusterSlot slot = grouping.slots[group.first_slot + part];
+        form_cluster(context.store, slot, ordered.subspan(begin, end - begin), context.frame);
+    }
+}
+
+} // namespace
+
+void Grouping::clear()
+{
+    particles.clear();
+    place.clear();
+    order.clear();
+    groups.clear();
+}
+
+void Grouping::resize(std::size_t count)
+{
+    particles.resize(count);
+    place.resize(count);
+    order.resize(count);
+}
+
+void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots, const UpdateContext& context)
+{
+    ClusterTable& clusters = context.store.clusters;
+    std::vector<std::uint32_t>& first = grouping.order; // holds the prefix sums until the particles are in place
+    first.resize(slots.size());
+    std::uint32_t total = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        first[i] = total;
+        total += clusters.count[slots[i].index];
+    }
+    grouping.particles.resize(total);
+    for_each_block(slots.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            map_out(context.store, slots[i], context.frame,
+                    std::span(grouping.particles).subspan(first[i], clusters.count[slots[i].index]));
+    });
+    for (const ClusterSlot slot : slots) {
+        unlink(tree.subtrees[clusters.region[slot.index]], clusters, slot);
+        context.store.members.retire(clusters.slab[slot.index], context.frame);
+        clusters.free_slot(slot);
+    }
+    grouping.resize(total);
+}
+
+void form_groups(Grouping& grouping, double spare, const UpdateContext& context)
+{
+    grouping.keys.resize(grouping.order.size());
+    grouping.ordered.resize(grouping.order.size());
+    take_slots(grouping, spare, context.store);
+    for_each_block(grouping.groups.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t group = begin; group < end; ++group)
+            form_group(grouping, grouping.groups[group], context);
+    });
+}
+
+void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters)
+{
+    for (const Group& group : grouping.groups)
+        for (std::uint32_t part = 0; part < group.clusters; ++part)
+            link(tree.of(group.pool), clusters, group.pool.pool, grouping.slots[group.first_slot + part]);
+}
+
+} // namespace slod

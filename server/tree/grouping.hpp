@@ -1,0 +1,59 @@
+#pragma once
+
+#include "cluster/particles.hpp"
+#include "tree/divide.hpp"
+#include "tree/slod_tree.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace slod {
+
+/// Particles without a cluster, on their way to being formed into clusters: the one road by which
+/// clusters come about, whether at the start, at the end of a pool's life, by a split or at birth.
+/// Memory is kept from frame to frame.
+struct Grouping {
+    /// Particles that are divided into clusters together.
+    struct Group {
+        PoolRef pool;             ///< where they go
+        std::uint32_t first = 0;  ///< in `order`
+        std::uint32_t count = 0;
+        std::uint32_t clusters = 0; ///< into which they are divided
+        std::uint32_t first_slot = 0; ///< in `slots`
+    };
+
+    std::vector<Particle> particles;
+    std::vector<Vector3d> place;      ///< by particle: where it counts as being when grouped
+    std::vector<std::uint32_t> order; ///< particle indices, group by group
+    std::vector<Group> groups;
+
+    // Scratch of form_groups().
+    std::vector<ClusterSlot> slots;
+    std::vector<DivisionKey> keys;
+    std::vector<Particle> ordered;
+
+    void clear();
+
+    /// Room for `count` particles; the arrays per particle have exactly this length then.
+    void resize(std::size_t count);
+};
+
+/// Members that clusters in `slots` hold, mapped out to the front of `grouping`, in order; the clusters end:
+/// taken off their pools, their slots freed and slabs retired.
+void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots, const UpdateContext& context);
+
+/// Divides each group into its number of clusters (0: none) and forms them. `spare` is the share of a
+/// slab's rows that is kept free for members to come.
+void form_groups(Grouping& grouping, double spare, const UpdateContext& context);
+
+/// Adds the clusters just formed to their groups' pools.
+void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters);
+
+/// Clusters that `count` particles are divided into.
+constexpr std::uint32_t clusters_for(std::uint32_t count, std::uint32_t max_cluster_size)
+{
+    return (count + max_cluster_size - 1) / max_cluster_size;
+}
+
+} // namespace slod

@@ -1,0 +1,228 @@
+#include "tree/regrouping.hpp"
+
+#include "core/parallel.hpp"
+#include "tree/merge_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace slod {
+namespace {
+
+constexpr std::size_t block = 1024;            ///< clusters planned by one task
+constexpr std::uint64_t revision_period = 8;   ///< frames between revisions of the k-d trees
+constexpr std::uint64_t merge_period = 16;     ///< every pool looks for merges once in so many frames
+constexpr double crowded = 1.4, sparse = 0.7;  ///< of the pool limit, as in re-forming
+
+} // namespace
+
+void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)
+{
+    context_.frame = frame;
+    plan(tree);
+    move_crossing(tree, counts);
+    split(tree, counts);
+    if (merging_)
+        merge(tree, counts);
+    if (frame % revision_period == 0)
+        revise(tree);
+}
+
+void Regrouping::plan(const SlodTree& tree)
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    actions_.resize(clusters.slot_count());
+    targets_.resize(clusters.slot_count());
+    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+        for (std::size_t slot = first; slot < last; ++slot)
+            actions_[slot] = clusters.alive(slot) ? action(tree, slot) : Action::Stay;
+    });
+    crossing_.clear();
+    splitting_.clear();
+    for (std::uint32_t slot = 0; slot < actions_.size(); ++slot) {
+        if (actions_[slot] == Action::Cross)
+            crossing_.push_back({slot});
+        else if (actions_[slot] == Action::Split)
+            splitting_.push_back({slot});
+    }
+}
+
+Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot)
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    const Subtree& subtree = tree.subtrees[clusters.region[slot]];
+    const std::uint32_t count = clusters.count[slot];
+    if (count > subtree.max_cluster_size())
+        return Action::Split;
+    if (count > 1 && std::isfinite(subtree.settings.max_breadth)) {
+        const Symmetric3 extent = map_position_moments(
+            clusters.counting_moments(slot), clusters.blocks(slot, context_.store.rule, context_.frame));
+        const double weight = clusters.counting_moments(slot).weight;
+        if (wider_than(subtree.settings.max_breadth, extent, weight))
+            return Action::Split;
+    }
+    const Vector3d& x = clusters.position[slot];
+    const PoolId pool = clusters.pool[slot];
+    if (subtree.nodes[subtree.pools[pool.index].node.index].box.contains(x))
+        return Action::Stay;
+    const std::uint16_t region = tree.region_at(x);
+    targets_[slot] =
+        region == subtree.region ? PoolRef{region, locate_near(subtree, pool, x)} : locate(tree, x);
+    return Action::Cross;
+}
+
+void Regrouping::move_crossing(SlodTree& tree, UpdateCounts& counts)
+{
+    ClusterTable& clusters = context_.store.clusters;
+    for (const ClusterSlot slot : crossing_) {
+        const PoolRef from{clusters.region[slot.index], clusters.pool[slot.index]};
+        PoolRef to = targets_[slot.index];
+        if (!to.valid())
+            to = locate_or_grow(tree, clusters.position[slot.index]);
+        if (to == from)
+            continue; // beyond the rim of the grid
+        unlink(tree.of(from), clusters, slot);
+        link(tree.of(to), clusters, to.pool, slot);
+        ++counts.crossings;
+    }
+}
+
+void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
+{
+    if (splitting_.empty())
+        return;
+    grouping_.clear();
+    std::uint32_t first = 0;
+    for (const ClusterSlot slot : splitting_) {
+        const ClusterTable& clusters = context_.store.clusters;
+        const PoolRef pool{clusters.region[slot.index], clusters.pool[slot.index]};
+        const std::uint32_t count = clusters.count[slot.index];
+        const std::uint32_t parts = clusters_for(count, tree.of(pool).max_cluster_size());
+        grouping_.groups.push_back({pool, first, count, std::max(parts, 2U), 0});
+        first += count;
+    }
+    form_from(tree, splitting_);
+    counts.splits += splitting_.size();
+    counts.reformed_members += first;
+}
+
+/// Ends the clusters, forms the groups' new ones of their members, and links each where it is.
+void Regrouping::form_from(SlodTree& tree, std::span<const ClusterSlot> ended)
+{
+    ClusterTable& clusters = context_.store.clusters;
+    dissolve(tree, grouping_, ended, context_);
+    for (std::size_t i = 0; i < grouping_.particles.size(); ++i)
+        grouping_.place[i] = grouping_.particles[i].position;
+    std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
+    form_groups(grouping_, 0, context_);
+    for (const ClusterSlot slot : grouping_.slots) {
+        const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
+        link(tree.of(pool), clusters, pool.pool, slot);
+    }
+}
+
+void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
+{
+    partner_.resize(context_.store.clusters.slot_count());
+    merging_pairs_.clear();
+    grouping_.clear();
+    std::uint32_t first = 0;
+    for (const Subtree& subtree : tree.subtrees) {
+        const std::size_t turn = context_.frame % merge_period;
+        const std::size_t turns = (subtree.pools.size() + merge_period - 1 - turn) / merge_period;
+        for_each_block(turns, 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                pair_clusters(subtree, subtree.pools[i * merge_period + turn]);
+        });
+        const ClusterTable& clusters = context_.store.clusters;
+        for (std::size_t i = 0; i < turns; ++i) {
+            const Pool& pool = subtree.pools[i * merge_period + turn];
+            for (ClusterSlot a = pool.first; a.valid(); a = clusters.next[a.index]) {
+                const ClusterSlot b = partner_[a.index];
+                if (!b.valid() || b < a)
+                    continue;
+                merging_pairs_.insert(merging_pairs_.end(), {a, b});
+                const std::uint32_t count = clusters.count[a.index] + clusters.count[b.index];
+                grouping_.groups.push_back({{subtree.region, clusters.pool[a.index]}, first, count, 1, 0});
+                first += count;
+            }
+        }
+    }
+    if (merging_pairs_.empty())
+        return;
+    form_from(tree, merging_pairs_);
+    counts.merges += merging_pairs_.size() / 2;
+    counts.reformed_members += first;
+}
+
+/// Pairs each cluster of a pool with the nearest later one that it may merge with.
+void Regrouping::pair_clusters(const Subtree& tree, const Pool& pool)
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index])
+        partner_[slot.index] = {};
+    for (ClusterSlot a = pool.first; a.valid(); a = clusters.next[a.index]) {
+        if (partner_[a.index].valid())
+            continue;
+        ClusterSlot best;
+        double best_squared = 0;
+        for (ClusterSlot b = clusters.next[a.index]; b.valid(); b = clusters.next[b.index]) {
+            const double squared = (clusters.position[b.index] - clusters.position[a.index]).squaredNorm();
+            if (partner_[b.index].valid() || (best.valid() && squared >= best_squared) ||
+                !may_merge(context_.store, tree.settings, a, b, context_.frame))
+                continue;
+            best = b;
+            best_squared = squared;
+        }
+        if (best.valid()) {
+            partner_[a.index] = best;
+            partner_[best.index] = a;
+        }
+    }
+}
+
+/// Keeps the k-d trees as fine as the clusters ask for (section 4.2).
+void Regrouping::revise(SlodTree& tree)
+{
+    for (Subtree& subtree : tree.subtrees) {
+        const auto limit = std::uint32_t(sparse * subtree.pool_limit());
+        for (std::uint32_t pool = 0; pool < subtree.pools.size(); ++pool) { // grows
+            if (!subtree.pools[pool].node.valid())
+                continue;
+            if (subtree.pools[pool].members < limit)
+                prune(subtree, context_.store.clusters, {pool}, limit);
+            else
+                expand_crowded(subtree, {pool});
+        }
+    }
+}
+
+/// Splits the pool's leaf at the median of its members, taken at their clusters' centres, until what stays
+/// is no longer crowded. What goes to the other side is looked at in its turn.
+void Regrouping::expand_crowded(Subtree& tree, PoolId pool)
+{
+    ClusterTable& clusters = context_.store.clusters;
+    const double limit = crowded * tree.pool_limit();
+    while (tree.pools[pool.index].members > limit && tree.pools[pool.index].clusters > 1 &&
+           can_expand(tree, pool)) {
+        const Box box = tree.nodes[tree.pools[pool.index].node.index].box;
+        const int axis = box.longest_side();
+        by_position_.clear();
+        for (ClusterSlot slot = tree.pools[pool.index].first; slot.valid(); slot = clusters.next[slot.index])
+            by_position_.push_back(slot);
+        const auto coordinate = [&](ClusterSlot slot) { return clusters.position[slot.index][axis]; };
+        std::sort(by_position_.begin(), by_position_.end(), [&](ClusterSlot a, ClusterSlot b) {
+            return coordinate(a) != coordinate(b) ? coordinate(a) < coordinate(b) : a < b;
+        });
+        std::uint32_t below = 0;
+        auto median = by_position_.begin();
+        while (2 * below < tree.pools[pool.index].members && median + 1 != by_position_.end())
+            below += clusters.count[(median++)->index];
+        const double margin = 0.2 * box.size()[axis];
+        const double position = std::clamp(coordinate(*median), box.lower[axis] + margin, box.upper[axis] - margin);
+        expand(tree, clusters, pool, axis, position);
+    }
+}
+
+} // namespace slod

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "tree/grouping.hpp"
+#include "tree/slod_tree.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace slod {
+
+/// The update of clusters whose maps do not age: those of exact flow maps, of rigid motion (O'Brien et
+/// al. 2001, sections 4.1 and 4.3) and single particles. A cluster whose centre crosses into another leaf
+/// moves to that leaf's pool; one that has become too large or too wide is split; where `merging`, two of
+/// one pool merge when together they are small enough and move alike.
+class Regrouping {
+public:
+    Regrouping(bool merging, const UpdateContext& context) : merging_(merging), context_(context) {}
+
+    /// Updates after the clusters have moved to the end of frame `frame`.
+    void update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts);
+
+private:
+    enum class Action : std::uint8_t { Stay, Cross, Split };
+
+    void plan(const SlodTree& tree);
+    Action action(const SlodTree& tree, std::size_t slot);
+    void move_crossing(SlodTree& tree, UpdateCounts& counts);
+    void split(SlodTree& tree, UpdateCounts& counts);
+    void merge(SlodTree& tree, UpdateCounts& counts);
+    void pair_clusters(const Subtree& tree, const Pool& pool);
+    void form_from(SlodTree& tree, std::span<const ClusterSlot> ended);
+    void revise(SlodTree& tree);
+    void expand_crowded(Subtree& tree, PoolId pool);
+
+    bool merging_;
+    UpdateContext context_;
+    Grouping grouping_;
+    std::vector<Action> actions_;        ///< by slot
+    std::vector<PoolRef> targets_;       ///< by slot, of those that cross
+    std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
+    std::vector<ClusterSlot> partner_;   ///< by slot
+    std::vector<ClusterSlot> by_position_;
+};
+
+} // namespace slod
