@@ -1,8 +1,10 @@
 #include "cluster/conserved.hpp"
 
-#include "core/parallel.hpp"
-
 #include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/parallel.hpp"
 
 namespace slod {
 
@@ -25,7 +27,8 @@ ConservedQuantities conserved_quantities(const ClusterStore& store, std::size_t 
     // sum of m dx x dv from the off-diagonal differences of sum of m dx dv^T
     const Vector3d spin{inner.cross(1, 2) - inner.cross(2, 1), inner.cross(2, 0) - inner.cross(0, 2),
                         inner.cross(0, 1) - inner.cross(1, 0)};
-    return {mass, mass * v, mass * x.cross(v) + spin, 0.5 * (mass * v.squaredNorm() + inner.velocity.trace())};
+    return {mass, mass * v, mass * x.cross(v) + spin,
+            0.5 * (mass * v.squaredNorm() + inner.velocity.trace())};
 }
 
 ConservedQuantities conserved_quantities(const ClusterStore& store, std::uint64_t frame)
