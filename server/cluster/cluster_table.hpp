@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "cluster/flow_map.hpp"
 #include "cluster/member_pool.hpp"
 #include "cluster/moments.hpp"
@@ -7,21 +10,19 @@
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
 
-#include <cstdint>
-#include <vector>
-
 namespace slod {
 
 /// All clusters, one array per quantity, a row per slot. Slots of ended clusters are re-used, with a new
 /// generation. Centres in double: they are few. Invariants, checked by problems():
-///  - a slot is either free (count 0) or alive, with count live members within its slab's first `stored` rows;
+///  - a slot is either free (count 0) or alive, with count live members within its slab's first `stored`
+///  rows;
 ///  - the moments are those of the live members;
 ///  - every alive cluster is in the list of exactly one pool.
 struct ClusterTable {
     /// Columns that not every plan needs.
     struct Columns {
-        bool map = false;             ///< full flow maps
-        bool tide = false;            ///< tidal tensors
+        bool map = false;  ///< full flow maps
+        bool tide = false; ///< tidal tensors
         bool acceleration = false;
         bool counting_moments = false; ///< when masses differ, so that breadth counts particles
         bool expiry = false;
@@ -32,30 +33,30 @@ struct ClusterTable {
     Columns columns;
 
     // State, carried from frame to frame.
-    AlignedVector<Vector3d> position;  ///< centre of mass
+    AlignedVector<Vector3d> position; ///< centre of mass
     AlignedVector<Vector3d> velocity;
-    AlignedVector<FlowMap> map;        ///< columns.map
-    AlignedVector<Moments> moments;    ///< weighted by mass
-    AlignedVector<Moments> counting;   ///< weighted by number; columns.counting_moments
-    AlignedVector<float> offset_max;   ///< largest |o| at forming
-    AlignedVector<float> speed_max;    ///< largest |w| at forming
+    AlignedVector<FlowMap> map;             ///< columns.map
+    AlignedVector<Moments> moments;         ///< weighted by mass
+    AlignedVector<Moments> counting;        ///< weighted by number; columns.counting_moments
+    AlignedVector<float> offset_max;        ///< largest |o| at forming
+    AlignedVector<float> speed_max;         ///< largest |w| at forming
     AlignedVector<float> softening_squared; ///< mass-weighted mean of the members' eps^2
     AlignedVector<Slab> slab;
-    AlignedVector<std::uint32_t> stored; ///< rows of the slab that have been written
-    AlignedVector<std::uint32_t> count;  ///< live members; 0 in a free slot
+    AlignedVector<std::uint32_t> stored;      ///< rows of the slab that have been written
+    AlignedVector<std::uint32_t> count;       ///< live members; 0 in a free slot
     AlignedVector<std::uint32_t> next_expiry; ///< frame at whose end the next member dies; columns.expiry
     AlignedVector<std::uint64_t> formed_frame;
-    AlignedVector<std::uint64_t> formation;   ///< number of the forming, never re-used
-    AlignedVector<std::uint32_t> generation;  ///< of the slot
+    AlignedVector<std::uint64_t> formation;  ///< number of the forming, never re-used
+    AlignedVector<std::uint32_t> generation; ///< of the slot
     AlignedVector<std::uint16_t> region;
-    AlignedVector<PoolId> pool;               ///< of the region's subtree
+    AlignedVector<PoolId> pool;                ///< of the region's subtree
     AlignedVector<ClusterSlot> next, previous; ///< in the pool's list
 
     // Derived anew each frame from the state.
-    AlignedVector<Vector3d> acceleration;  ///< columns.acceleration
-    AlignedVector<Symmetric3> tide;        ///< da/dx without the closure; columns.tide
-    AlignedVector<double> closure;         ///< self-gravity of the members, T_self = -closure 1; columns.map
-    AlignedVector<double> variance;        ///< trace of the position covariance; columns.acceleration
+    AlignedVector<Vector3d> acceleration; ///< columns.acceleration
+    AlignedVector<Symmetric3> tide;       ///< da/dx without the closure; columns.tide
+    AlignedVector<double> closure;        ///< self-gravity of the members, T_self = -closure 1; columns.map
+    AlignedVector<double> variance;       ///< trace of the position covariance; columns.acceleration
 
     std::size_t slot_count() const { return count.size(); }
     std::size_t alive_count() const { return slot_count() - free_slots.size(); }

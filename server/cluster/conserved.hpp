@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstdint>
+
 #include "cluster/forming.hpp"
 #include "core/vectors.hpp"
-
-#include <cstdint>
 
 namespace slod {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/vectors.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string_view>
+
+#include "core/vectors.hpp"
 
 namespace slod {
 

@@ -1,10 +1,10 @@
 #include "cluster/forming.hpp"
 
-#include "core/assert.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include "core/assert.hpp"
 
 namespace slod {
 namespace {
@@ -60,7 +60,8 @@ void write_row(const Rows& rows, std::uint32_t row, const Particle& particle, co
 }
 
 /// Weight of a member in the sums that define the cluster's centre: of mass, or of number when massless.
-void add_to_moments(ClusterStore& store, std::size_t slot, double mass, double number, const FormedOffset& offset)
+void add_to_moments(ClusterStore& store, std::size_t slot, double mass, double number,
+                    const FormedOffset& offset)
 {
     const Vector3d o = offset.position.cast<double>();
     const Vector3d w = offset.velocity.cast<double>();
@@ -112,7 +113,8 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
 
 } // namespace
 
-void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> particles, std::uint64_t frame)
+void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> particles,
+                  std::uint64_t frame)
 {
     ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
@@ -235,7 +237,8 @@ std::uint32_t remove_expired(ClusterStore& store, ClusterSlot cluster, std::uint
     return died;
 }
 
-double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot, std::uint64_t frame)
+double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
+                       std::uint64_t frame)
 {
     const MapBlocks map = clusters.blocks(slot, rule, frame);
     const MapBlocks::Offset mean = means(clusters, slot);

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cluster/cluster_table.hpp"
-#include "cluster/member_pool.hpp"
-#include "cluster/particles.hpp"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "cluster/cluster_table.hpp"
+#include "cluster/member_pool.hpp"
+#include "cluster/particles.hpp"
 
 namespace slod {
 
@@ -22,7 +22,7 @@ struct ClusterStore {
     ClusterTable clusters;
     MemberPool members;
     MapRule rule;
-    float uniform_mass = 0;                    ///< of members, when they have no mass column
+    float uniform_mass = 0;                     ///< of members, when they have no mass column
     std::vector<double> kind_softening_squared; ///< eps^2 by kind
 };
 
@@ -43,6 +43,7 @@ void insert_member(ClusterStore& store, ClusterSlot slot, const Particle& partic
 std::uint32_t remove_expired(ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
 
 /// Radius about the centre that no member is beyond: |A| (o_max + |o_c|) + |B| (w_max + |w_c|).
-double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot, std::uint64_t frame);
+double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
+                       std::uint64_t frame);
 
 } // namespace slod

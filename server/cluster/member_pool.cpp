@@ -1,9 +1,9 @@
 #include "cluster/member_pool.hpp"
 
-#include "core/assert.hpp"
-
 #include <algorithm>
 #include <bit>
+
+#include "core/assert.hpp"
 
 namespace slod {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/vectors.hpp"
-
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
+
+#include "core/vectors.hpp"
 
 namespace slod {
 
@@ -57,7 +57,10 @@ public:
     const FormedOffset* offsets(const Slab& slab) const { return row(offset_, slab.first); }
     const std::uint64_t* ids(const Slab& slab) const { return row(id_, slab.first); }
     const float* masses(const Slab& slab) const { return columns_.mass ? row(mass_, slab.first) : nullptr; }
-    const std::uint8_t* kinds(const Slab& slab) const { return columns_.kind ? row(kind_, slab.first) : nullptr; }
+    const std::uint8_t* kinds(const Slab& slab) const
+    {
+        return columns_.kind ? row(kind_, slab.first) : nullptr;
+    }
     const std::uint32_t* expiries(const Slab& slab) const
     {
         return columns_.expiry ? row(expiry_, slab.first) : nullptr;

@@ -1,9 +1,9 @@
 #include "cluster/moments.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
 
 namespace slod {
 namespace {

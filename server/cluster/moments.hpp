@@ -9,11 +9,11 @@ namespace slod {
 /// velocity w. With mass as weight they give everything about the cluster that its map can carry, without
 /// visiting a member; with weight 1 its extent as seen.
 struct Moments {
-    double weight = 0;         ///< sum of weights: the mass, or the count
-    Vector3d o{0, 0, 0};       ///< sum of weight o
-    Vector3d w{0, 0, 0};       ///< sum of weight w
-    Symmetric3 oo;             ///< Q: sum of weight o o^T
-    Symmetric3 ww;             ///< W: sum of weight w w^T
+    double weight = 0;              ///< sum of weights: the mass, or the count
+    Vector3d o{0, 0, 0};            ///< sum of weight o
+    Vector3d w{0, 0, 0};            ///< sum of weight w
+    Symmetric3 oo;                  ///< Q: sum of weight o o^T
+    Symmetric3 ww;                  ///< W: sum of weight w w^T
     Matrix3d ow = Matrix3d::Zero(); ///< S: sum of weight o w^T
 
     /// Adds a member; a negative weight takes it away again.
@@ -25,9 +25,9 @@ struct Moments {
 
 /// Second moments about the means, mapped to now: sums, not yet divided by the weight.
 struct MappedMoments {
-    Matrix3d position;  ///< sum of weight dx dx^T
-    Matrix3d velocity;  ///< sum of weight dv dv^T
-    Matrix3d cross;     ///< sum of weight dx dv^T
+    Matrix3d position; ///< sum of weight dx dx^T
+    Matrix3d velocity; ///< sum of weight dv dv^T
+    Matrix3d cross;    ///< sum of weight dx dv^T
 };
 
 MappedMoments map_moments(const Moments& moments, const MapBlocks& map);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/settings.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string_view>
+
+#include "core/settings.hpp"
 
 namespace slod {
 
@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 3> names(Motion)
 
 struct MotionSettings {
     Motion motion = Motion::Flow;
-    double clock = 0.2;             ///< tau: a map lives tau / sqrt(|tidal tensor|)
+    double clock = 0.2;              ///< tau: a map lives tau / sqrt(|tidal tensor|)
     std::uint32_t shortest_life = 2; ///< frames
     std::uint32_t longest_life = 64; ///< frames
 };
@@ -30,10 +30,12 @@ struct MotionSettings {
 template <class Visitor>
 void for_each_field(MotionSettings& motion, Visitor&& visit)
 {
-    visit(Field{"kind", "", "How members move with their cluster: by its linearised flow, freely, or rigidly."},
-          motion.motion);
-    visit(Field{"clock", "", "A flow map is renewed after this share of the tidal time 1/sqrt(|T|).", 1e-3, 10},
-          motion.clock);
+    visit(
+        Field{"kind", "", "How members move with their cluster: by its linearised flow, freely, or rigidly."},
+        motion.motion);
+    visit(
+        Field{"clock", "", "A flow map is renewed after this share of the tidal time 1/sqrt(|T|).", 1e-3, 10},
+        motion.clock);
     visit(Field{"shortest_life", "frames", "Shortest life of a flow map; a power of two.", 1, 1024},
           motion.shortest_life);
     visit(Field{"longest_life", "frames", "Longest life of a flow map; a power of two.", 1, 65536},

@@ -20,9 +20,9 @@ struct AlignedAllocator {
 
     T* allocate(std::size_t count)
     {
-        return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{simd_alignment}));
+        return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{simd_alignment}));
     }
-    void deallocate(T* memory, std::size_t) { ::operator delete(memory, std::align_val_t{simd_alignment}); }
+    void deallocate(T* memory, std::size_t) { ::operator delete (memory, std::align_val_t{simd_alignment}); }
 
     friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
 };

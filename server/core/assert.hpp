@@ -3,7 +3,8 @@
 namespace slod {
 
 #ifdef SLOD_VALIDATE
-inline constexpr bool validating = true; ///< debug and sanitizer builds check whole structures after each phase
+inline constexpr bool validating =
+    true; ///< debug and sanitizer builds check whole structures after each phase
 #else
 inline constexpr bool validating = false;
 #endif

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <cstddef>
+#include <immintrin.h>
 
 #ifdef SLOD_PLAIN_THREADS
 #include <atomic>

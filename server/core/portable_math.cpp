@@ -73,10 +73,14 @@ SineCosine portable_sincos(double angle)
     }
     sine *= r;
     switch (static_cast<long long>(quadrant) & 3) {
-    case 0: return {sine, cosine};
-    case 1: return {cosine, -sine};
-    case 2: return {-sine, -cosine};
-    default: return {-cosine, sine};
+    case 0:
+        return {sine, cosine};
+    case 1:
+        return {cosine, -sine};
+    case 2:
+        return {-sine, -cosine};
+    default:
+        return {-cosine, sine};
     }
 }
 

@@ -1,14 +1,14 @@
 #include "core/random.hpp"
 
-#include "core/portable_math.hpp"
-
 #include <cmath>
+
+#include "core/portable_math.hpp"
 
 namespace slod {
 
 Random::Random(std::uint64_t seed, std::uint32_t stream, std::uint64_t item)
-    : key_{std::uint32_t(seed), std::uint32_t(seed >> 32)},
-      counter_{0, stream, std::uint32_t(item), std::uint32_t(item >> 32)}
+    : key_{std::uint32_t(seed), std::uint32_t(seed >> 32)}, counter_{0, stream, std::uint32_t(item),
+                                                                     std::uint32_t(item >> 32)}
 {}
 
 void Random::refill()

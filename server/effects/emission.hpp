@@ -1,11 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "effects/emitter.hpp"
 #include "tree/grouping.hpp"
 #include "tree/slod_tree.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace slod {
 

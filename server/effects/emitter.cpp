@@ -1,14 +1,14 @@
 #include "effects/emitter.hpp"
 
-#include "core/parallel.hpp"
-#include "core/portable_math.hpp"
-#include "core/random.hpp"
-
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "core/parallel.hpp"
+#include "core/portable_math.hpp"
+#include "core/random.hpp"
 
 namespace slod {
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "cluster/particles.hpp"
 #include "effects/settings.hpp"
 #include "effects/uniform_fields.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace slod {
 
@@ -27,7 +27,8 @@ public:
 
     /// Appends the particles that start in frame `frame` (of length `step`, ending at frame * step), moved
     /// to the frame's end in `fields`. Those whose lifetime ends within the frame are left out.
-    void emit(std::uint64_t frame, double step, const UniformFields& fields, std::vector<Newborn>& newborns) const;
+    void emit(std::uint64_t frame, double step, const UniformFields& fields,
+              std::vector<Newborn>& newborns) const;
 
     const EmitterSettings& settings() const { return settings_; }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/settings.hpp"
-#include "core/vectors.hpp"
-
 #include <limits>
 #include <string>
+
+#include "core/settings.hpp"
+#include "core/vectors.hpp"
 
 namespace slod {
 
@@ -25,17 +25,17 @@ struct UniformWindSettings {
 /// Throws out particles of one kind from a point, within a cone about a direction.
 struct EmitterSettings {
     std::string name;
-    std::string kind;                 ///< of the scene's kinds
-    Vector3d position{0, 0, 0};       ///< scene length
-    Vector3d direction{0, 0, 1};      ///< any length but 0
-    double speed = 1;                 ///< scene length / time
-    double speed_spread = 0;          ///< half width of a uniform distribution, as a share of the speed
-    double cone_angle_deg = 0;        ///< half angle; directions are uniform in the cone
-    double rate = 100;                ///< particles per time, evenly spaced
+    std::string kind;            ///< of the scene's kinds
+    Vector3d position{0, 0, 0};  ///< scene length
+    Vector3d direction{0, 0, 1}; ///< any length but 0
+    double speed = 1;            ///< scene length / time
+    double speed_spread = 0;     ///< half width of a uniform distribution, as a share of the speed
+    double cone_angle_deg = 0;   ///< half angle; directions are uniform in the cone
+    double rate = 100;           ///< particles per time, evenly spaced
     double lifetime = std::numeric_limits<double>::infinity(); ///< time
-    double particle_mass = 1;         ///< scene mass
-    double start = 0;                 ///< time of the first particle
-    double stop = std::numeric_limits<double>::infinity(); ///< no particle from here on
+    double particle_mass = 1;                                  ///< scene mass
+    double start = 0;                                          ///< time of the first particle
+    double stop = std::numeric_limits<double>::infinity();     ///< no particle from here on
 };
 
 template <class Visitor>
@@ -69,7 +69,8 @@ void for_each_field(EmitterSettings& emitter, Visitor&& visit)
     visit(Field{"cone_angle", "deg", "Half angle of the cone; directions are uniform in it.", 0, 180},
           emitter.cone_angle_deg);
     visit(Field{"rate", "1/time", "Particles per unit of time, evenly spaced.", 0, 1e12}, emitter.rate);
-    visit(Field{"lifetime", "time", "Age at which a particle vanishes.", 0, no_maximum, true}, emitter.lifetime);
+    visit(Field{"lifetime", "time", "Age at which a particle vanishes.", 0, no_maximum, true},
+          emitter.lifetime);
     visit(Field{"particle_mass", "mass", "Mass of each particle.", 0, 1e30}, emitter.particle_mass);
     visit(Field{"start", "time", "When the first particle starts.", 0, 1e30}, emitter.start);
     visit(Field{"stop", "time", "From here on no particle starts.", 0, no_maximum, true}, emitter.stop);

@@ -1,8 +1,8 @@
 #include "effects/uniform_fields.hpp"
 
-#include "core/portable_math.hpp"
-
 #include <cmath>
+
+#include "core/portable_math.hpp"
 
 namespace slod {
 namespace {

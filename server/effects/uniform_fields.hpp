@@ -1,9 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "cluster/flow_map.hpp"
 #include "effects/settings.hpp"
-
-#include <optional>
 
 namespace slod {
 

@@ -1,11 +1,11 @@
 #include "gravity/direct_sum.hpp"
 
-#include "core/parallel.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+
+#include "core/parallel.hpp"
 
 namespace slod {
 namespace {
@@ -103,10 +103,10 @@ void sum_block(const ForceView& view, const simd::GravityKernels<Real>& kernels,
     auto& out = sums.partial;
     const auto unless_absent = [tide](auto& column) { return tide ? column.data() : nullptr; };
     const simd::GravityTargets<Real> asked{
-        target_block, targets.x.data(), targets.y.data(), targets.z.data(), targets.q.data(),
-        out[0].data(), out[1].data(), out[2].data(),
-        unless_absent(out[3]), unless_absent(out[4]), unless_absent(out[5]),
-        unless_absent(out[6]), unless_absent(out[7]), unless_absent(out[8])};
+        target_block,          targets.x.data(),      targets.y.data(),      targets.z.data(),
+        targets.q.data(),      out[0].data(),         out[1].data(),         out[2].data(),
+        unless_absent(out[3]), unless_absent(out[4]), unless_absent(out[5]), unless_absent(out[6]),
+        unless_absent(out[7]), unless_absent(out[8])};
     const auto kernel = tide ? kernels.add_acceleration_and_tide : kernels.add_acceleration;
     for (std::size_t source = 0; source < view.body_count(); source += source_block) {
         const std::size_t end = std::min(view.body_count(), source + source_block);

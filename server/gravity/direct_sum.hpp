@@ -13,6 +13,7 @@ void sum_directly(const ForceView& view, const simd::KernelTable& kernels, Preci
                   double gravitational_constant, ClusterTable& clusters);
 
 /// Potential energy of all pairs, sum over pairs of -G m_i m_j / (d^2 + q_i + q_j)^(1/2), in double.
-double potential_energy(const ForceView& view, const simd::KernelTable& kernels, double gravitational_constant);
+double potential_energy(const ForceView& view, const simd::KernelTable& kernels,
+                        double gravitational_constant);
 
 } // namespace slod

@@ -1,10 +1,10 @@
 #include "gravity/force_view.hpp"
 
-#include "core/parallel.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include "core/parallel.hpp"
 
 namespace slod {
 namespace {
@@ -34,7 +34,9 @@ std::uint64_t morton_code(const Cell& cell)
 void sort_cells(std::vector<ForceView::CellRoot>& cells, const Subtree& tree)
 {
     cells.clear();
-    tree.cells.for_each([&](const Cell& cell, NodeId root) { cells.push_back({morton_code(cell), cell, root}); });
+    tree.cells.for_each([&](const Cell& cell, NodeId root) {
+        cells.push_back({morton_code(cell), cell, root});
+    });
     std::sort(cells.begin(), cells.end(), [](const ForceView::CellRoot& a, const ForceView::CellRoot& b) {
         return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
     });
@@ -123,8 +125,8 @@ void fill_bodies(ForceView& view, const ClusterTable& clusters, const GravitySet
             view.y[body] = clusters.position[slot].y();
             view.z[body] = clusters.position[slot].z();
             view.mass[body] = clusters.mass(slot);
-            view.q[body] =
-                0.5 * double(clusters.softening_squared[slot]) + gravity.size_softening * clusters.variance[slot];
+            view.q[body] = 0.5 * double(clusters.softening_squared[slot]) +
+                           gravity.size_softening * clusters.variance[slot];
         }
     });
 }
@@ -200,13 +202,15 @@ void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double 
             const double n = clusters.count[slot];
             const double radius_squared =
                 5.0 / 3.0 * variance * n / (n - 1) + double(clusters.softening_squared[slot]);
-            clusters.closure[slot] =
-                radius_squared > 0 ? gravitational_constant * mass / (radius_squared * std::sqrt(radius_squared)) : 0;
+            clusters.closure[slot] = radius_squared > 0 ? gravitational_constant * mass /
+                                                              (radius_squared * std::sqrt(radius_squared))
+                                                        : 0;
         }
     });
 }
 
-void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters, const GravitySettings& gravity)
+void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
+           const GravitySettings& gravity)
 {
     view.nodes.clear();
     view.slot.clear();

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/aligned.hpp"
 #include "core/ids.hpp"
 #include "gravity/settings.hpp"
 #include "tree/slod_tree.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace slod {
 
@@ -26,7 +26,7 @@ struct ForceView {
     // By body.
     AlignedVector<double> x, y, z; ///< scene length
     AlignedVector<double> mass;
-    AlignedVector<double> q;       ///< half the squared softening and size: eps^2 / 2 + c s
+    AlignedVector<double> q; ///< half the squared softening and size: eps^2 / 2 + c s
     std::vector<ClusterSlot> slot;
 
     std::vector<Node> nodes; ///< depth first; one root per region that holds anything
@@ -48,7 +48,8 @@ void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double 
                     std::uint64_t frame);
 
 /// Rebuilds the view of the clusters as they are. The variances must be measured.
-void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters, const GravitySettings& gravity);
+void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
+           const GravitySettings& gravity);
 
 /// What breaks the view's invariants; empty when nothing does.
 Problems problems(const ForceView& view, const ClusterTable& clusters);

@@ -1,6 +1,6 @@
-#include "gravity/force_view.hpp"
-
 #include <string>
+
+#include "gravity/force_view.hpp"
 
 namespace slod {
 
@@ -16,7 +16,8 @@ Problems problems(const ForceView& view, const ClusterTable& clusters)
         if (node.count == 0 || node.next <= index || node.next > view.nodes.size())
             found.push_back(name + " is empty or goes on at a node before it");
         std::uint32_t covered = node.first;
-        for (std::uint32_t child = std::uint32_t(index) + 1; child < node.next; child = view.nodes[child].next) {
+        for (std::uint32_t child = std::uint32_t(index) + 1; child < node.next;
+             child = view.nodes[child].next) {
             if (view.nodes[child].first != covered)
                 found.push_back(name + " has a child that does not begin where the last one ended");
             covered += view.nodes[child].count;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/settings.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string_view>
+
+#include "core/settings.hpp"
 
 namespace slod {
 
@@ -30,8 +30,8 @@ template <class Visitor>
 void for_each_field(GravitySettings& gravity, Visitor&& visit)
 {
     visit(Field{"strength", "", "Factor on Newton's constant.", 0, 1e30}, gravity.strength);
-    visit(Field{"size_softening", "", "Share of the clusters' position variances added to a pair's squared softening.",
-                0, 10},
+    visit(Field{"size_softening", "",
+                "Share of the clusters' position variances added to a pair's squared softening.", 0, 10},
           gravity.size_softening);
     visit(Field{"closure", "", "Members of a cluster attract each other as a homogeneous ball does."},
           gravity.closure);

@@ -1,7 +1,7 @@
-#include "sim/plan.hpp"
-
 #include <cstdio>
 #include <numeric>
+
+#include "sim/plan.hpp"
 
 namespace slod {
 namespace {
@@ -36,7 +36,8 @@ std::string updates(const Plan& plan)
         return "pools are re-formed by the dynamical clock";
     if (plan.merging)
         return "clusters cross, split and merge by size, breadth, speed ratio and angle";
-    return plan.has(Phase::Update) ? "clusters cross cells; size and breadth split them" : "none: nothing to regroup";
+    return plan.has(Phase::Update) ? "clusters cross cells; size and breadth split them"
+                                   : "none: nothing to regroup";
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 #include "sim/plan.hpp"
 
-#include "cluster/cluster_table.hpp"
-#include "cluster/member_pool.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "cluster/cluster_table.hpp"
+#include "cluster/member_pool.hpp"
 
 namespace slod {
 namespace {

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "cluster/flow_map.hpp"
-#include "sim/phase.hpp"
-#include "sim/settings.hpp"
-
 #include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "cluster/flow_map.hpp"
+#include "sim/phase.hpp"
+#include "sim/settings.hpp"
 
 namespace slod {
 

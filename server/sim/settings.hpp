@@ -1,15 +1,15 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "cluster/motion.hpp"
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
 #include "effects/settings.hpp"
 #include "gravity/settings.hpp"
 #include "tree/settings.hpp"
-
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 namespace slod {
 

@@ -1,11 +1,11 @@
 #include "sim/simulation.hpp"
 
+#include <algorithm>
+
 #include "core/assert.hpp"
 #include "core/parallel.hpp"
 #include "sim/state.hpp"
 #include "sim/state_hash.hpp"
-
-#include <algorithm>
 
 namespace slod {
 
@@ -23,16 +23,16 @@ const Snapshot& Simulation::step(const Request& request)
     s.snapshot.profile = {};
     s.snapshot.counts = {};
     ++s.frame;
-    //                                                            reads                    writes
-    s.run(Phase::Commands, [&] { s.open_frame(); });           // retired slabs         -> member pool
-    s.run(Phase::OpenKick, [&] { s.kick(); });                 // accelerations, tides  -> velocities, maps
-    s.run(Phase::Propagate, [&] { s.propagate(); });           // velocities, maps      -> positions, maps
-    s.run(Phase::Emit, [&] { s.emit(); });                     // emitters, expiries    -> clusters, members
-    s.run(Phase::Update, [&] { s.update(); });                 // positions, shapes     -> tree, clusters, members
-    s.run(Phase::Moments, [&] { s.measure_moments(); });       // clusters, tree        -> variances, force view
-    s.run(Phase::Forces, [&] { s.evaluate_forces(); });        // force view            -> accelerations, tides
-    s.run(Phase::CloseKick, [&] { s.close_kick(); });          // accelerations, tides  -> velocities, maps
-    s.run(Phase::Snapshot, [&] { s.take_snapshot(request); }); // clusters              -> snapshot
+    //                                                      reads                   writes
+    s.run(Phase::Commands, [&] { s.open_frame(); });     // retired slabs        -> member pool
+    s.run(Phase::OpenKick, [&] { s.kick(); });           // accelerations, tides -> velocities, maps
+    s.run(Phase::Propagate, [&] { s.propagate(); });     // velocities, maps     -> positions, maps
+    s.run(Phase::Emit, [&] { s.emit(); });               // emitters, expiries   -> clusters, members
+    s.run(Phase::Update, [&] { s.update(); });           // positions, shapes    -> tree, clusters, members
+    s.run(Phase::Moments, [&] { s.measure_moments(); }); // clusters, tree       -> variances, force view
+    s.run(Phase::Forces, [&] { s.evaluate_forces(); });  // force view           -> accelerations, tides
+    s.run(Phase::CloseKick, [&] { s.close_kick(); });    // accelerations, tides -> velocities, maps
+    s.run(Phase::Snapshot, [&] { s.observe(request); }); // clusters             -> snapshot
     if constexpr (validating)
         SLOD_ASSERT(s.problems().empty());
     return s.snapshot;
@@ -40,7 +40,7 @@ const Snapshot& Simulation::step(const Request& request)
 
 const Snapshot& Simulation::snapshot(const Request& request)
 {
-    state_->take_snapshot(request);
+    state_->observe(request);
     return state_->snapshot;
 }
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "cluster/particles.hpp"
-#include "sim/plan.hpp"
-#include "sim/settings.hpp"
-#include "sim/snapshot.hpp"
-
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string_view>
+
+#include "cluster/particles.hpp"
+#include "sim/plan.hpp"
+#include "sim/settings.hpp"
+#include "sim/snapshot.hpp"
 
 namespace slod {
 

@@ -1,26 +1,26 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
 #include "cluster/conserved.hpp"
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
 #include "sim/phase.hpp"
 #include "tree/slod_tree.hpp"
 
-#include <array>
-#include <cstdint>
-#include <string_view>
-#include <vector>
-
 namespace slod {
 
 /// What happened in one frame, counted.
 struct FrameCounts : UpdateCounts {
-    std::uint64_t particles = 0;         ///< alive at the end of the frame
+    std::uint64_t particles = 0; ///< alive at the end of the frame
     std::uint64_t clusters = 0;
     std::uint64_t pools = 0;
     std::uint64_t born = 0;
     std::uint64_t died = 0;
-    std::uint64_t interactions = 0;      ///< pairs summed by gravity
+    std::uint64_t interactions = 0; ///< pairs summed by gravity
 };
 
 /// A count of events in a frame, by name.
@@ -47,14 +47,14 @@ inline constexpr std::array<EventCount, 10> event_counts{{
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is
 /// published, drawn and tested. Filled only when somebody asks for it.
 struct ClusterStates {
-    std::vector<Vector3d> position;                ///< centre of mass, scene length
-    std::vector<Vector3d> velocity;                ///< scene length / time
+    std::vector<Vector3d> position; ///< centre of mass, scene length
+    std::vector<Vector3d> velocity; ///< scene length / time
     std::vector<double> mass;
-    std::vector<std::uint32_t> count;              ///< particles
-    std::vector<std::array<float, 6>> covariance;  ///< of positions: xx xy xz yy yz zz, scene length^2
+    std::vector<std::uint32_t> count;             ///< particles
+    std::vector<std::array<float, 6>> covariance; ///< of positions: xx xy xz yy yz zz, scene length^2
     std::vector<ClusterId> id;
-    std::vector<std::uint64_t> formation;          ///< never re-used: a new one for every forming
-    std::vector<std::uint16_t> region;             ///< index of the region of interest
+    std::vector<std::uint64_t> formation; ///< never re-used: a new one for every forming
+    std::vector<std::uint16_t> region;    ///< index of the region of interest
 
     std::size_t size() const { return position.size(); }
 };
@@ -65,7 +65,7 @@ struct Snapshot {
     double time = 0;         ///< scene time at the end of the frame
     FrameCounts counts;
     ConservedQuantities conserved;
-    StepProfile profile;     ///< of this frame
+    StepProfile profile; ///< of this frame
     ClusterStates clusters;
 };
 

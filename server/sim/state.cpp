@@ -1,11 +1,11 @@
 #include "sim/state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/assert.hpp"
 #include "gravity/direct_sum.hpp"
 #include "sim/integrator.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace slod {
 namespace {
@@ -97,7 +97,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     }
     if constexpr (validating)
         SLOD_ASSERT(problems().empty());
-    take_snapshot({});
+    observe({});
 }
 
 void Simulation::State::open_frame()

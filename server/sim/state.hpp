@@ -16,7 +16,7 @@ namespace slod {
 struct Simulation::State {
     State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options);
 
-    void open_frame();   ///< Commands: recycles member slabs, and makes room so that no phase has to
+    void open_frame(); ///< Commands: recycles member slabs, and makes room so that no phase has to
     void kick();
     void close_kick();
     void propagate();
@@ -24,7 +24,7 @@ struct Simulation::State {
     void update();
     void measure_moments();
     void evaluate_forces();
-    void take_snapshot(const Request& request);
+    void observe(const Request& request);
     void copy_clusters();
 
     /// Runs and times a phase, if the plan has it.

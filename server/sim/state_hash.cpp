@@ -1,11 +1,11 @@
 #include "sim/state_hash.hpp"
 
-#include "core/assert.hpp"
-
 #include <memory>
 #include <type_traits>
 
 #include <xxhash.h>
+
+#include "core/assert.hpp"
 
 namespace slod {
 namespace {

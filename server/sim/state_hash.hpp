@@ -1,10 +1,10 @@
 #pragma once
 
-#include "cluster/forming.hpp"
-#include "tree/slod_tree.hpp"
-
 #include <cstdint>
 #include <span>
+
+#include "cluster/forming.hpp"
+#include "tree/slod_tree.hpp"
 
 namespace slod {
 

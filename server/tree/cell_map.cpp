@@ -1,8 +1,8 @@
 #include "tree/cell_map.hpp"
 
-#include "core/assert.hpp"
-
 #include <utility>
+
+#include "core/assert.hpp"
 
 namespace slod {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/ids.hpp"
-
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "core/ids.hpp"
 
 namespace slod {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "tree/slod_tree.hpp"
-
 #include <cstdint>
 #include <vector>
+
+#include "tree/slod_tree.hpp"
 
 namespace slod {
 

@@ -1,10 +1,10 @@
 #include "tree/grouping.hpp"
 
-#include "core/assert.hpp"
-#include "core/parallel.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/assert.hpp"
+#include "core/parallel.hpp"
 
 namespace slod {
 namespace {
@@ -74,10 +74,12 @@ void Grouping::resize(std::size_t count)
     order.resize(count);
 }
 
-void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots, const UpdateContext& context)
+void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
+              const UpdateContext& context)
 {
     ClusterTable& clusters = context.store.clusters;
-    std::vector<std::uint32_t>& first = grouping.order; // holds the prefix sums until the particles are in place
+    std::vector<std::uint32_t>& first =
+        grouping.order; // holds the prefix sums until the particles are in place
     first.resize(slots.size());
     std::uint32_t total = 0;
     for (std::size_t i = 0; i < slots.size(); ++i) {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cluster/particles.hpp"
-#include "tree/divide.hpp"
-#include "tree/slod_tree.hpp"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "cluster/particles.hpp"
+#include "tree/divide.hpp"
+#include "tree/slod_tree.hpp"
 
 namespace slod {
 
@@ -16,10 +16,10 @@ namespace slod {
 struct Grouping {
     /// Particles that are divided into clusters together.
     struct Group {
-        PoolRef pool;             ///< where they go
-        std::uint32_t first = 0;  ///< in `order`
+        PoolRef pool;            ///< where they go
+        std::uint32_t first = 0; ///< in `order`
         std::uint32_t count = 0;
-        std::uint32_t clusters = 0; ///< into which they are divided
+        std::uint32_t clusters = 0;   ///< into which they are divided
         std::uint32_t first_slot = 0; ///< in `slots`
     };
 
@@ -41,7 +41,8 @@ struct Grouping {
 
 /// Members that clusters in `slots` hold, mapped out to the front of `grouping`, in order; the clusters end:
 /// taken off their pools, their slots freed and slabs retired.
-void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots, const UpdateContext& context);
+void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
+              const UpdateContext& context);
 
 /// Divides each group into its number of clusters (0: none) and forms them. `spare` is the share of a
 /// slab's rows that is kept free for members to come.

@@ -1,10 +1,10 @@
 #include "tree/merge_rules.hpp"
 
-#include "core/portable_math.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/portable_math.hpp"
 
 namespace slod {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstdint>
+
 #include "cluster/forming.hpp"
 #include "tree/settings.hpp"
-
-#include <cstdint>
 
 namespace slod {
 

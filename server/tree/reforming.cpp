@@ -1,17 +1,17 @@
 #include "tree/reforming.hpp"
 
-#include "core/assert.hpp"
-#include "core/parallel.hpp"
-
 #include <algorithm>
 #include <bit>
+
+#include "core/assert.hpp"
+#include "core/parallel.hpp"
 
 namespace slod {
 namespace {
 
 constexpr double crowded = 1.4; ///< of the pool limit: the leaf is divided
 constexpr double sparse = 0.7;  ///< of the pool limit: two sibling leaves are merged
-constexpr double spare = 0.25;  ///< share of a slab kept free for strays, and of a cluster's size they may add
+constexpr double spare = 0.25; ///< share of a slab kept free for strays, and of a cluster's size they may add
 
 } // namespace
 
@@ -230,11 +230,15 @@ void Reforming::expand_group(SlodTree& tree, std::size_t index)
         });
         // Cells keep a bounded aspect ratio: no split near a face.
         const double margin = 0.2 * box.size()[axis];
-        const double position = std::clamp(coordinate(*middle), box.lower[axis] + margin, box.upper[axis] - margin);
-        const auto cut = std::partition(begin, end, [&](std::uint32_t i) { return coordinate(i) < position; });
+        const double position =
+            std::clamp(coordinate(*middle), box.lower[axis] + margin, box.upper[axis] - margin);
+        const auto cut =
+            std::partition(begin, end, [&](std::uint32_t i) { return coordinate(i) < position; });
         const auto lower = std::uint32_t(cut - begin);
-        const PoolId right = expand(tree.of(group.pool), context_.store.clusters, group.pool.pool, axis, position);
-        const Grouping::Group other{{group.pool.region, right}, group.first + lower, group.count - lower, 0, 0};
+        const PoolId right =
+            expand(tree.of(group.pool), context_.store.clusters, group.pool.pool, axis, position);
+        const Grouping::Group other{
+            {group.pool.region, right}, group.first + lower, group.count - lower, 0, 0};
         group.count = lower;
         grouping_.groups.push_back(other);
     }

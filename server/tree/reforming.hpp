@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cluster/motion.hpp"
-#include "tree/grouping.hpp"
-#include "tree/slod_tree.hpp"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "cluster/motion.hpp"
+#include "tree/grouping.hpp"
+#include "tree/slod_tree.hpp"
 
 namespace slod {
 
@@ -57,9 +57,9 @@ private:
     UpdateContext context_;
     Grouping grouping_;
     std::vector<Due> due_;
-    std::vector<ClusterSlot> ending_;     ///< clusters of the due pools, in their order
-    std::vector<PoolRef> target_;         ///< by particle
-    std::vector<std::uint32_t> arrivals_; ///< by pool, all regions in a row
+    std::vector<ClusterSlot> ending_;      ///< clusters of the due pools, in their order
+    std::vector<PoolRef> target_;          ///< by particle
+    std::vector<std::uint32_t> arrivals_;  ///< by pool, all regions in a row
     std::vector<std::uint32_t> pool_base_; ///< by region: its first row in `arrivals_`
 };
 

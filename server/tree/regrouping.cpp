@@ -1,19 +1,19 @@
 #include "tree/regrouping.hpp"
 
-#include "core/parallel.hpp"
-#include "tree/merge_rules.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/parallel.hpp"
+#include "tree/merge_rules.hpp"
+
 namespace slod {
 namespace {
 
-constexpr std::size_t block = 1024;            ///< clusters planned by one task
-constexpr std::uint64_t revision_period = 8;   ///< frames between revisions of the k-d trees
-constexpr std::uint64_t merge_period = 16;     ///< every pool looks for merges once in so many frames
-constexpr double crowded = 1.4, sparse = 0.7;  ///< of the pool limit, as in re-forming
+constexpr std::size_t block = 1024;           ///< clusters planned by one task
+constexpr std::uint64_t revision_period = 8;  ///< frames between revisions of the k-d trees
+constexpr std::uint64_t merge_period = 16;    ///< every pool looks for merges once in so many frames
+constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit, as in re-forming
 
 } // namespace
 
@@ -220,7 +220,8 @@ void Regrouping::expand_crowded(Subtree& tree, PoolId pool)
         while (2 * below < tree.pools[pool.index].members && median + 1 != by_position_.end())
             below += clusters.count[(median++)->index];
         const double margin = 0.2 * box.size()[axis];
-        const double position = std::clamp(coordinate(*median), box.lower[axis] + margin, box.upper[axis] - margin);
+        const double position =
+            std::clamp(coordinate(*median), box.lower[axis] + margin, box.upper[axis] - margin);
         expand(tree, clusters, pool, axis, position);
     }
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "tree/grouping.hpp"
-#include "tree/slod_tree.hpp"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "tree/grouping.hpp"
+#include "tree/slod_tree.hpp"
 
 namespace slod {
 
@@ -36,10 +36,10 @@ private:
     bool merging_;
     UpdateContext context_;
     Grouping grouping_;
-    std::vector<Action> actions_;        ///< by slot
-    std::vector<PoolRef> targets_;       ///< by slot, of those that cross
+    std::vector<Action> actions_;  ///< by slot
+    std::vector<PoolRef> targets_; ///< by slot, of those that cross
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
-    std::vector<ClusterSlot> partner_;   ///< by slot
+    std::vector<ClusterSlot> partner_; ///< by slot
     std::vector<ClusterSlot> by_position_;
 };
 

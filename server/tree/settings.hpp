@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/settings.hpp"
-
 #include <limits>
+
+#include "core/settings.hpp"
 
 namespace slod {
 
@@ -10,10 +10,10 @@ namespace slod {
 struct RegionSettings {
     double max_cluster_size = 64; ///< particles per cluster; real-valued, floored when used
     double max_breadth = std::numeric_limits<double>::infinity(); ///< diameter of a cluster, scene length
-    double pool_factor = 4;       ///< particles re-formed together, in cluster sizes
-    double speed_ratio = 2;       ///< largest ratio of speeds that may merge (lambda)
-    double angle_deg = 30;        ///< largest angle between velocities that may merge (theta)
-    double speed_floor = 0;       ///< below it speeds and directions are not compared, scene length / time
+    double pool_factor = 4; ///< particles re-formed together, in cluster sizes
+    double speed_ratio = 2; ///< largest ratio of speeds that may merge (lambda)
+    double angle_deg = 30;  ///< largest angle between velocities that may merge (theta)
+    double speed_floor = 0; ///< below it speeds and directions are not compared, scene length / time
 };
 
 template <class Visitor>
@@ -21,14 +21,16 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
 {
     visit(Field{"max_cluster_size", "particles", "Largest number of particles that share a cluster.", 1, 1e6},
           region.max_cluster_size);
-    visit(Field{"max_breadth", "length", "Largest diameter of a cluster, and of a grid cell.", 1e-30, no_maximum,
-                true},
+    visit(Field{"max_breadth", "length", "Largest diameter of a cluster, and of a grid cell.", 1e-30,
+                no_maximum, true},
           region.max_breadth);
-    visit(Field{"pool_factor", "", "Particles that are re-formed together, in units of max_cluster_size.", 1, 64},
+    visit(Field{"pool_factor", "", "Particles that are re-formed together, in units of max_cluster_size.", 1,
+                64},
           region.pool_factor);
     visit(Field{"speed_ratio", "", "Clusters merge only below this ratio of speeds (rigid motion).", 1, 1e6},
           region.speed_ratio);
-    visit(Field{"angle", "deg", "Clusters merge only below this angle between velocities (rigid motion).", 0, 180},
+    visit(Field{"angle", "deg", "Clusters merge only below this angle between velocities (rigid motion).", 0,
+                180},
           region.angle_deg);
     visit(Field{"speed_floor", "length/time", "Clusters slower than this merge whatever their directions.", 0,
                 no_maximum},

@@ -1,8 +1,8 @@
 #include "tree/slod_tree.hpp"
 
-#include "core/assert.hpp"
-
 #include <string>
+
+#include "core/assert.hpp"
 
 namespace slod {
 

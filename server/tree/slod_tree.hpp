@@ -1,9 +1,9 @@
 #pragma once
 
-#include "tree/subtree.hpp"
-
 #include <cstdint>
 #include <vector>
+
+#include "tree/subtree.hpp"
 
 namespace slod {
 
@@ -49,8 +49,8 @@ struct UpdateCounts {
 /// What an update works on besides the tree.
 struct UpdateContext {
     ClusterStore& store;
-    std::uint64_t frame;  ///< frames completed at the moment of the update
-    double step;          ///< time of one frame
+    std::uint64_t frame; ///< frames completed at the moment of the update
+    double step;         ///< time of one frame
 };
 
 /// What breaks the invariants of tree and clusters together; empty when nothing does. O(clusters).

@@ -1,9 +1,9 @@
 #include "tree/subtree.hpp"
 
-#include "core/assert.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/assert.hpp"
 
 namespace slod {
 namespace {

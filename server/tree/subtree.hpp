@@ -1,14 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "cluster/forming.hpp"
 #include "core/ids.hpp"
 #include "tree/box.hpp"
 #include "tree/cell_map.hpp"
 #include "tree/settings.hpp"
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace slod {
 
@@ -28,8 +28,8 @@ struct Node {
 
 /// The clusters of one leaf, and when they are formed anew.
 struct Pool {
-    NodeId node;         ///< invalid in a free pool
-    ClusterSlot first;   ///< head of the list of its clusters
+    NodeId node;       ///< invalid in a free pool
+    ClusterSlot first; ///< head of the list of its clusters
     std::uint32_t clusters = 0;
     std::uint32_t members = 0;
     std::uint32_t phase = 0;      ///< spreads the pools' turns over the frames
@@ -59,7 +59,8 @@ struct Subtree {
     std::vector<PoolId> free_pools;
 
     std::uint32_t max_cluster_size() const { return std::uint32_t(settings.max_cluster_size); }
-    std::uint32_t pool_limit() const; ///< members of a pool: a goal; expanded above 1.4, pruned below 0.7 of it
+    std::uint32_t
+    pool_limit() const; ///< members of a pool: a goal; expanded above 1.4, pruned below 0.7 of it
     std::size_t pool_count() const { return pools.size() - free_pools.size(); }
 };
 
@@ -86,8 +87,8 @@ bool can_expand(const Subtree& tree, PoolId pool);
 /// invalid when the cell is gone.
 PoolId prune(Subtree& tree, ClusterTable& clusters, PoolId pool, std::uint32_t members);
 
-void link(Subtree& tree, ClusterTable& clusters, PoolId pool, ClusterSlot slot);   ///< adds to the pool's list
-void unlink(Subtree& tree, ClusterTable& clusters, ClusterSlot slot);              ///< takes it off its list
+void link(Subtree& tree, ClusterTable& clusters, PoolId pool, ClusterSlot slot); ///< adds to the pool's list
+void unlink(Subtree& tree, ClusterTable& clusters, ClusterSlot slot);            ///< takes it off its list
 
 /// What breaks the invariants; empty when nothing does. O(clusters).
 Problems problems(const Subtree& tree, const ClusterTable& clusters);

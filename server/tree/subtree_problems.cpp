@@ -1,6 +1,6 @@
-#include "tree/subtree.hpp"
-
 #include <string>
+
+#include "tree/subtree.hpp"
 
 namespace slod {
 namespace {
@@ -37,7 +37,8 @@ void check_pool(const Subtree& tree, const ClusterTable& clusters, PoolId id, Pr
     const Pool& pool = tree.pools[id.index];
     std::uint32_t listed = 0;
     std::uint64_t members = 0;
-    for (ClusterSlot slot = pool.first; slot.valid() && listed <= pool.clusters; slot = clusters.next[slot.index]) {
+    for (ClusterSlot slot = pool.first; slot.valid() && listed <= pool.clusters;
+         slot = clusters.next[slot.index]) {
         ++listed;
         members += clusters.count[slot.index];
         if (!clusters.alive(slot.index))
@@ -46,9 +47,9 @@ void check_pool(const Subtree& tree, const ClusterTable& clusters, PoolId id, Pr
             found.push_back(name("cluster", slot.index) + " does not name its " + name("pool", id.index));
     }
     if (listed != pool.clusters || members != pool.members)
-        found.push_back(name("pool", id.index) + " counts " + std::to_string(pool.clusters) + " clusters and " +
-                        std::to_string(pool.members) + " members but lists " + std::to_string(listed) + " and " +
-                        std::to_string(members));
+        found.push_back(name("pool", id.index) + " counts " + std::to_string(pool.clusters) +
+                        " clusters and " + std::to_string(pool.members) + " members but lists " +
+                        std::to_string(listed) + " and " + std::to_string(members));
 }
 
 } // namespace

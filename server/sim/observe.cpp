@@ -15,7 +15,7 @@ std::array<float, 6> covariance(const ClusterStore& store, std::size_t slot, std
 
 } // namespace
 
-void Simulation::State::take_snapshot(const Request& request)
+void Simulation::State::observe(const Request& request)
 {
     snapshot.frame = frame;
     snapshot.time = double(frame) * settings.time.step;
