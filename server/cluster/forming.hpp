@@ -28,7 +28,7 @@ struct ClusterStore {
 
 /// Forms a cluster of `particles` (at least one) in `slot`, whose slab must have room for them: centre and
 /// velocity by mass, or by number when all are massless; offsets and moments from them; the identity map.
-/// Reorders the particles: by expiry, then id. Leaves region, pool and list to the caller.
+/// Where particles expire it reorders them: by expiry, then id. Leaves region, pool and list to the caller.
 void form_cluster(ClusterStore& store, ClusterSlot slot, std::span<Particle> particles, std::uint64_t frame);
 
 /// Writes the cluster's live members as they are at the end of frame `frame`; `out` has room for count of
