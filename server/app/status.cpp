@@ -1,0 +1,71 @@
+#include "app/status.hpp"
+
+#include <cstddef>
+#include <iterator>
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include "app/scales.hpp"
+
+namespace slod {
+namespace {
+
+constexpr int seconds_between_log_lines = 5;
+
+/// 1234567 as 1,234,567.
+std::string grouped(std::uint64_t number)
+{
+    std::string digits = std::to_string(number);
+    for (auto place = std::ptrdiff_t(digits.size()) - 3; place > 0; place -= 3)
+        digits.insert(std::size_t(place), 1, ',');
+    return digits;
+}
+
+/// Every planned phase as ` name<separator>milliseconds`.
+std::string phase_times(const StepProfile& profile, const Plan& plan, char separator)
+{
+    std::string text;
+    for (std::size_t phase = 0; phase < phase_count; ++phase)
+        if (plan.runs[phase])
+            fmt::format_to(std::back_inserter(text), " {}{}{:.2f}", names(Phase{})[phase], separator,
+                           profile.milliseconds[phase]);
+    return text;
+}
+
+/// How fast simulated time goes, from the real-time factor: "x1.00", or "29.3 Myr/s".
+std::string speed_text(double real_time_factor)
+{
+    const bool readable = real_time_factor >= 0.001 && real_time_factor < 10000;
+    return readable ? fmt::format("x{:.2f}", real_time_factor) : duration_text(real_time_factor) + "/s";
+}
+
+} // namespace
+
+std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
+{
+    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters  {:.2f} ms:{}",
+                       snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
+                       grouped(snapshot.counts.particles), grouped(snapshot.counts.clusters), means.work_ms,
+                       phase_times(means.profile, plan, ' '));
+}
+
+std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
+{
+    return fmt::format(
+        "status frame={} time={:.6g} frame_rate_hz={:.1f} real_time_factor={:.4g} particles={} "
+        "clusters={} work_ms={:.2f}{}",
+        snapshot.frame, snapshot.time, means.frame_rate_hz, means.real_time_factor, snapshot.counts.particles,
+        snapshot.counts.clusters, means.work_ms, phase_times(means.profile, plan, '='));
+}
+
+void StatusDisplay::update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
+{
+    ++seconds_;
+    if (logging_.on_terminal())
+        logging_.show_status(status_line(snapshot, means, plan));
+    else if (seconds_ % seconds_between_log_lines == 0)
+        spdlog::info(status_record(snapshot, means, plan));
+}
+
+} // namespace slod

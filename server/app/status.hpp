@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "app/log.hpp"
+#include "app/loop_meter.hpp"
+#include "sim/plan.hpp"
+#include "sim/snapshot.hpp"
+
+namespace slod {
+
+/// One line for people: frame, rates, sizes and the milliseconds of each planned phase.
+std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
+
+/// The same as key=value, for a log.
+std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
+
+/// Shows how the run goes: on a terminal every second in place, elsewhere a log line every few seconds.
+class StatusDisplay {
+public:
+    /// `logging` must outlive the display.
+    explicit StatusDisplay(Logging& logging) : logging_(logging) {}
+
+    /// To be called once a second.
+    void update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
+
+private:
+    Logging& logging_;
+    int seconds_ = 0;
+};
+
+} // namespace slod
