@@ -1,0 +1,148 @@
+#include "app/input_log.hpp"
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <xxhash.h>
+
+namespace slod {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* format_name = "slod-input-log";
+constexpr int format_version = 1;
+
+std::uint64_t hash_from(const std::string& text)
+{
+    std::uint64_t hash = 0;
+    const char* end = text.data() + text.size();
+    if (text.size() != 16 || std::from_chars(text.data(), end, hash, 16).ptr != end)
+        throw std::runtime_error("\"" + text + "\" is not a hash of 16 hexadecimal digits");
+    return hash;
+}
+
+Json to_json(const InputLogHeader& header)
+{
+    return {{"format", format_name},
+            {"format_version", format_version},
+            {"version", header.version},
+            {"scene_name", header.scene_name},
+            {"scene_text", header.scene_text},
+            {"settings", header.settings},
+            {"input", header.input.string()},
+            {"initial_source", header.initial_source},
+            {"initial_hash", hash_text(header.initial_hash)}};
+}
+
+InputLogHeader header_from(const Json& line)
+{
+    if (line.value("format", "") != format_name || line.value("format_version", 0) != format_version)
+        throw std::runtime_error("not the header of an input log of format version " +
+                                 std::to_string(format_version));
+    return {.version = line.at("version"),
+            .scene_name = line.at("scene_name"),
+            .scene_text = line.at("scene_text"),
+            .settings = line.at("settings"),
+            .input = line.at("input").get<std::string>(),
+            .initial_source = line.at("initial_source"),
+            .initial_hash = hash_from(line.at("initial_hash"))};
+}
+
+/// Takes in one line after the header.
+void read_line(const Json& line, InputLog& log)
+{
+    if (log.end)
+        throw std::runtime_error("nothing may follow the end");
+    if (line.contains("command"))
+        log.commands.push_back({.frame = line.at("frame"), .command = line.at("command")});
+    else
+        log.end = InputLogEnd{.frames = line.at("frames"), .state_hash = hash_from(line.at("state_hash"))};
+}
+
+} // namespace
+
+std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& file)
+{
+    std::ifstream stream(file);
+    if (!stream)
+        return Problems{file.string() + ": the input log cannot be read"};
+    InputLog log;
+    std::size_t line_number = 0;
+    try {
+        for (std::string text; std::getline(stream, text);) {
+            ++line_number;
+            const Json line = Json::parse(text);
+            if (line_number == 1)
+                log.header = header_from(line);
+            else
+                read_line(line, log);
+        }
+    } catch (const std::exception& error) {
+        return Problems{file.string() + ":" + std::to_string(line_number) + ": " + error.what()};
+    }
+    if (line_number == 0)
+        return Problems{file.string() + ": the input log is empty"};
+    return log;
+}
+
+InputLogWriter::InputLogWriter(const std::filesystem::path& folder, const InputLogHeader& header)
+    : place_(folder / "input.log")
+{
+    std::filesystem::create_directories(folder);
+    file_.reset(std::fopen(place_.c_str(), "we"));
+    if (!file_)
+        throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
+    write_line(to_json(header).dump());
+}
+
+void InputLogWriter::record(const LoggedCommand& command)
+{
+    write_line(Json{{"frame", command.frame}, {"command", command.command}}.dump());
+}
+
+void InputLogWriter::finish(const InputLogEnd& end)
+{
+    write_line(Json{{"frames", end.frames}, {"state_hash", hash_text(end.state_hash)}}.dump());
+    if (::fsync(fileno(file_.get())) != 0)
+        throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
+}
+
+void InputLogWriter::write_line(const std::string& line)
+{
+    if (std::fputs((line + '\n').c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0)
+        throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
+}
+
+std::uint64_t content_hash(const ParticleSet& particles)
+{
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+    XXH3_64bits_reset(state.get());
+    for (const Particle& particle : particles) {
+        std::array<std::uint64_t, 9> fields{};
+        for (int axis = 0; axis < 3; ++axis) {
+            fields[std::size_t(axis)] = std::bit_cast<std::uint64_t>(particle.position[axis]);
+            fields[std::size_t(axis) + 3] = std::bit_cast<std::uint64_t>(particle.velocity[axis]);
+        }
+        fields[6] = particle.id;
+        fields[7] = std::uint64_t(std::bit_cast<std::uint32_t>(particle.mass)) << 32 | particle.expiry_frame;
+        fields[8] = particle.kind;
+        XXH3_64bits_update(state.get(), fields.data(), sizeof fields);
+    }
+    return XXH3_64bits_digest(state.get());
+}
+
+std::string hash_text(std::uint64_t hash)
+{
+    return fmt::format("{:016x}", hash);
+}
+
+} // namespace slod

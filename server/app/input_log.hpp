@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cluster/particles.hpp"
+#include "core/settings.hpp"
+
+namespace slod {
+
+/// Everything a run starts from; the first line of an input log.
+struct InputLogHeader {
+    std::string version;               ///< of the program that wrote it
+    std::string scene_name;            ///< name of the scene file, for messages
+    std::string scene_text;            ///< what was in it
+    std::vector<std::string> settings; ///< overrides, "table.key=value"
+    std::filesystem::path input;       ///< file of initial conditions, absolute; empty: the scene's own
+    std::string initial_source;        ///< in words, where the first particles came from
+    std::uint64_t initial_hash = 0;    ///< content_hash() of them
+};
+
+/// One command, applied at the start of a frame.
+struct LoggedCommand {
+    std::uint64_t frame = 0;
+    std::string command;
+};
+
+/// The outcome; the last line of the log of a run that ended in order.
+struct InputLogEnd {
+    std::uint64_t frames = 0;
+    std::uint64_t state_hash = 0;
+};
+
+/// All inputs of a run, in JSON lines: run again, they give the same state hash.
+struct InputLog {
+    InputLogHeader header;
+    std::vector<LoggedCommand> commands; ///< by frame
+    std::optional<InputLogEnd> end;
+};
+
+/// Reads a log. What is wrong with it comes with file and line.
+std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& file);
+
+/// Writes a log as the run goes, so that what a crash leaves can still be read.
+class InputLogWriter {
+public:
+    /// Makes `folder` if need be and starts its input.log anew. Throws std::system_error.
+    InputLogWriter(const std::filesystem::path& folder, const InputLogHeader& header);
+
+    /// Throws std::system_error, as does finish().
+    void record(const LoggedCommand& command);
+
+    /// The last line; syncs the file.
+    void finish(const InputLogEnd& end);
+
+private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+
+    void write_line(const std::string& line);
+
+    std::filesystem::path place_;
+    std::unique_ptr<std::FILE, Close> file_;
+};
+
+/// Hash of particles as delivered: XXH3 over every field, in order.
+std::uint64_t content_hash(const ParticleSet& particles);
+
+/// A 64-bit hash as 16 hexadecimal digits, as in logs and reports.
+std::string hash_text(std::uint64_t hash);
+
+} // namespace slod

@@ -1,0 +1,84 @@
+#include "app/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "app/input_log.hpp"
+#include "app/settings_json.hpp"
+#include "app/version.hpp"
+
+namespace slod {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vector3d& vector)
+{
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+Json conserved_json(const ConservedQuantities& conserved)
+{
+    return {{"mass", conserved.mass},
+            {"momentum", vector_json(conserved.momentum)},
+            {"angular_momentum", vector_json(conserved.angular_momentum)},
+            {"kinetic_energy", conserved.kinetic_energy}};
+}
+
+Json drift_json(const Drift& drift)
+{
+    return {{"mass", drift.mass},
+            {"momentum", drift.momentum},
+            {"angular_momentum", drift.angular_momentum},
+            {"kinetic_energy", drift.kinetic_energy}};
+}
+
+Json phases_json(const Plan& plan, const RunSummary& summary)
+{
+    Json phases = Json::object();
+    for (std::size_t phase = 0; phase < phase_count; ++phase)
+        if (plan.runs[phase])
+            phases[std::string(names(Phase{})[phase])] = {
+                {"ms_median", summary.phase_ms[phase].quantile(0.5)},
+                {"ms_p99", summary.phase_ms[phase].quantile(0.99)}};
+    return phases;
+}
+
+Json counts_json(const FrameCounts& events)
+{
+    Json counts = Json::object();
+    for (const EventCount& event : event_counts)
+        counts[std::string(event.name)] = events.*event.count;
+    return counts;
+}
+
+} // namespace
+
+std::string report(const ReportedRun& run)
+{
+    const RunSummary& summary = run.summary;
+    const Json json = {
+        {"scene", run.scene.title},
+        {"version", version()},
+        {"initial", run.initial_source},
+        {"threads", run.threads},
+        {"isa", run.isa},
+        {"frames", summary.frames},
+        {"time", summary.time},
+        {"particles", summary.particles},
+        {"clusters", summary.clusters},
+        {"state_hash", hash_text(summary.state_hash)},
+        {"wall_s", summary.wall_s},
+        {"ms_per_frame",
+         {{"median", summary.frame_ms.quantile(0.5)}, {"p99", summary.frame_ms.quantile(0.99)}}},
+        {"phases", phases_json(run.plan, summary)},
+        {"drift", drift_json(drift(summary.conserved_start, summary.conserved_end))},
+        {"conserved",
+         {{"start", conserved_json(summary.conserved_start)},
+          {"end", conserved_json(summary.conserved_end)}}},
+        {"counts", counts_json(summary.events)},
+        {"settings", settings_json(run.scene)},
+    };
+    return json.dump(2) + '\n';
+}
+
+} // namespace slod
