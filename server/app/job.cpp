@@ -1,0 +1,155 @@
+#include "app/job.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include "app/output_file.hpp"
+#include "app/settings_json.hpp"
+#include "app/version.hpp"
+#include "sim/plan.hpp"
+
+namespace slod {
+namespace {
+
+std::string text_of(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A scene's text in a file of its own while it is read.
+class SceneCopy {
+public:
+    SceneCopy(const std::string& name, const std::string& text)
+    {
+        std::string folder = (std::filesystem::temp_directory_path() / "slod-replay-XXXXXX").string();
+        if (::mkdtemp(folder.data()) == nullptr)
+            throw std::system_error(errno, std::generic_category(), "cannot make " + folder);
+        folder_ = folder;
+        file_ = folder_ / std::filesystem::path(name).filename();
+        OutputFile(file_).commit(text);
+    }
+    ~SceneCopy()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    SceneCopy(const SceneCopy&) = delete;
+    SceneCopy& operator=(const SceneCopy&) = delete;
+
+    const std::filesystem::path& file() const { return file_; }
+
+private:
+    std::filesystem::path folder_;
+    std::filesystem::path file_;
+};
+
+/// Loads a scene and its particles as the header's settings and the command line's placement say.
+std::variant<Job, Problems> load(const std::filesystem::path& scene_file, InputLogHeader origin,
+                                 const CommandLine& line)
+{
+    std::vector<std::string> overrides = origin.settings;
+    overrides.insert(overrides.end(), line.placement.begin(), line.placement.end());
+    auto scene = load_scene(scene_file, overrides);
+    if (auto* found = std::get_if<Problems>(&scene))
+        return std::move(*found);
+    auto initial = load_initial(std::get<Scene>(scene), origin.input);
+    if (auto* found = std::get_if<Problems>(&initial))
+        return std::move(*found);
+    return Job{.scene = std::get<Scene>(std::move(scene)),
+               .initial = std::get<InitialParticles>(std::move(initial)),
+               .origin = std::move(origin),
+               .expected = {},
+               .frames = line.frames};
+}
+
+std::variant<Job, Problems> load_new(const CommandLine& line)
+{
+    const auto input = line.input.empty() ? line.input : std::filesystem::absolute(line.input);
+    auto loaded = load(line.scene,
+                       {.version = std::string(version()),
+                        .scene_name = line.scene.filename(),
+                        .scene_text = text_of(line.scene),
+                        .settings = line.settings,
+                        .input = input,
+                        .initial_source = {},
+                        .initial_hash = 0},
+                       line);
+    if (auto* job = std::get_if<Job>(&loaded)) {
+        job->origin.initial_source = job->initial.source;
+        job->origin.initial_hash = content_hash(job->initial.particles);
+    }
+    return loaded;
+}
+
+/// What keeps a log from being run again.
+Problems problems(const std::filesystem::path& file, const InputLog& log)
+{
+    Problems found;
+    if (!log.end)
+        found.push_back(file.string() +
+                        ": the log has no end; its run was cut short, so there is no outcome to "
+                        "compare with");
+    for (const LoggedCommand& command : log.commands)
+        found.push_back(file.string() + ": frame " + std::to_string(command.frame) + ": unknown command \"" +
+                        command.command + "\"");
+    return found;
+}
+
+std::variant<Job, Problems> load_replay(const CommandLine& line)
+{
+    auto read = read_input_log(line.replay);
+    if (auto* found = std::get_if<Problems>(&read))
+        return std::move(*found);
+    const InputLog& log = std::get<InputLog>(read);
+    if (Problems found = problems(line.replay, log); !found.empty())
+        return found;
+
+    const SceneCopy scene(log.header.scene_name, log.header.scene_text);
+    auto loaded = load(scene.file(), log.header, line);
+    if (auto* job = std::get_if<Job>(&loaded)) {
+        if (content_hash(job->initial.particles) != log.header.initial_hash)
+            return Problems{line.replay.string() +
+                            ": the particles at the start are not the recorded ones: now " +
+                            job->initial.source + ", then " + log.header.initial_source};
+        job->origin.version = version();
+        job->expected = log.end;
+        job->frames = log.end->frames;
+    }
+    return loaded;
+}
+
+} // namespace
+
+std::variant<Job, Problems> load_job(const CommandLine& line)
+{
+    return line.replay.empty() ? load_new(line) : load_replay(line);
+}
+
+std::string soundness(const Job& job)
+{
+    return fmt::format("{} is sound: \"{}\", {} particles at the start, {}", job.origin.scene_name,
+                       job.scene.title, job.initial.particles.size(), job.initial.source);
+}
+
+std::string plan_text(const Job& job)
+{
+    return explain(compile_plan(job.scene.simulation, job.initial.particles), job.scene.simulation);
+}
+
+void log_job(const Job& job)
+{
+    spdlog::info("scene file={} title=\"{}\" particles={} initial=\"{}\" version={}", job.origin.scene_name,
+                 job.scene.title, job.initial.particles.size(), job.initial.source, version());
+    for (const std::string& record : settings_records(job.scene))
+        spdlog::info(record);
+}
+
+} // namespace slod

@@ -1,0 +1,67 @@
+#include "app/outputs.hpp"
+
+#include <cstdio>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "app/picture.hpp"
+#include "app/report.hpp"
+
+namespace slod {
+namespace {
+
+std::string picture_of(const Job& job, const Simulation& simulation, const RunSummary& summary)
+{
+    const PictureCaption caption{.scene = job.scene.title,
+                                 .units = job.scene.simulation.units,
+                                 .time = summary.time,
+                                 .clusters = summary.clusters};
+    return draw_picture(simulation.particles(), viewing_plane(job.scene.simulation), caption).png();
+}
+
+} // namespace
+
+Outputs::Outputs(const CommandLine& line, const InputLogHeader& origin)
+{
+    if (!line.report.empty())
+        report_.emplace(line.report);
+    if (!line.picture.empty())
+        picture_.emplace(line.picture);
+    if (!line.output_folder.empty())
+        input_log_.emplace(line.output_folder, origin);
+}
+
+void Outputs::write(const Job& job, const Server& server, const RunSummary& summary)
+{
+    if (input_log_)
+        input_log_->finish({.frames = summary.frames, .state_hash = summary.state_hash});
+    if (report_)
+        report_->commit(report({.scene = job.scene,
+                                .plan = server.simulation().plan(),
+                                .summary = summary,
+                                .initial_source = job.initial.source,
+                                .isa = server.simulation().isa(),
+                                .threads = server.threads()}));
+    if (picture_)
+        picture_->commit(picture_of(job, server.simulation(), summary));
+}
+
+ExitCode compare_with_log(const Job& job, const RunSummary& summary)
+{
+    if (!job.expected)
+        return ExitCode::Success;
+    const std::string now = hash_text(summary.state_hash);
+    const std::string then = hash_text(job.expected->state_hash);
+    if (summary.frames != job.expected->frames)
+        fmt::print(stderr, "slod-server: the replay was stopped at frame {} of {}; nothing was compared\n",
+                   summary.frames, job.expected->frames);
+    else if (now != then)
+        fmt::print(stderr,
+                   "slod-server: the replay came out differently: state_hash={} recorded={} frames={}\n", now,
+                   then, summary.frames);
+    else
+        fmt::print("replay agrees: state_hash={} frames={}\n", now, summary.frames);
+    return summary.frames == job.expected->frames && now == then ? ExitCode::Success : ExitCode::Failure;
+}
+
+} // namespace slod

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "app/command_line.hpp"
+#include "app/input_log.hpp"
+#include "app/job.hpp"
+#include "app/output_file.hpp"
+#include "app/run_summary.hpp"
+#include "app/server.hpp"
+
+namespace slod {
+
+/// The files that a run leaves behind. Opened before it, so that a place that cannot be written ends the
+/// program at once and not after the run.
+class Outputs {
+public:
+    /// Throws std::system_error, naming the place.
+    Outputs(const CommandLine& line, const InputLogHeader& origin);
+
+    /// Throws std::system_error.
+    void write(const Job& job, const Server& server, const RunSummary& summary);
+
+private:
+    std::optional<OutputFile> report_;
+    std::optional<OutputFile> picture_;
+    std::optional<InputLogWriter> input_log_;
+};
+
+/// Whether a run came out as its log says, which it prints; a run that is no replay always succeeds.
+ExitCode compare_with_log(const Job& job, const RunSummary& summary);
+
+} // namespace slod
