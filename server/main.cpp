@@ -1,1 +1,64 @@
-int main() {}
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "app/command_line.hpp"
+#include "app/job.hpp"
+#include "app/log.hpp"
+#include "app/outputs.hpp"
+#include "app/server.hpp"
+#include "app/status.hpp"
+#include "app/stop_on_signal.hpp"
+
+namespace {
+
+int say(const std::string& text)
+{
+    std::puts(text.c_str());
+    return int(slod::ExitCode::Success);
+}
+
+int refuse(const slod::Problems& problems)
+{
+    for (const std::string& problem : problems)
+        std::fprintf(stderr, "slod-server: %s\n", problem.c_str());
+    return int(slod::ExitCode::Usage);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try {
+    const slod::StopOnSignal signals; // first: every later thread inherits the blocked signals
+    const auto parsed = slod::parse_command_line(argc, argv);
+    if (const auto* code = std::get_if<slod::ExitCode>(&parsed))
+        return int(*code);
+    const auto& line = std::get<slod::CommandLine>(parsed);
+    if (line.keys)
+        return say(slod::scene_reference());
+
+    auto loaded = slod::load_job(line);
+    if (const auto* problems = std::get_if<slod::Problems>(&loaded))
+        return refuse(*problems);
+    auto& job = std::get<slod::Job>(loaded);
+    if (line.check)
+        return say(slod::soundness(job));
+    if (line.explain)
+        return say(slod::plan_text(job));
+
+    slod::Logging logging;
+    slod::log_job(job);
+    slod::Outputs outputs(line, job.origin); // before the run, which may be long
+    slod::StatusDisplay status(logging);
+    slod::Server server(job.scene, std::move(job.initial.particles),
+                        {.frames = job.frames, .free_run = line.free_run},
+                        [&](const auto&... how_it_goes) { status.update(how_it_goes...); });
+    const slod::RunSummary summary = server.run(signals.token());
+    outputs.write(job, server, summary);
+    return int(slod::compare_with_log(job, summary));
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "slod-server: %s\n", error.what());
+    return int(slod::ExitCode::Failure);
+}
