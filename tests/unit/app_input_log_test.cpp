@@ -1,0 +1,140 @@
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/input_log.hpp"
+
+namespace slod {
+namespace {
+
+class InputLogTest : public testing::Test {
+protected:
+    ~InputLogTest() override { std::filesystem::remove_all(folder_); }
+
+    InputLog read() const
+    {
+        const auto log = read_input_log(file_);
+        if (const auto* found = std::get_if<Problems>(&log)) {
+            ADD_FAILURE() << found->front();
+            return {};
+        }
+        return std::get<InputLog>(log);
+    }
+
+    /// What reading says is wrong, in one string.
+    std::string problem() const
+    {
+        const auto log = read_input_log(file_);
+        const auto* found = std::get_if<Problems>(&log);
+        return found ? found->front() : std::string();
+    }
+
+    const std::filesystem::path folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string("slod-log-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const std::filesystem::path file_ = folder_ / "input.log";
+    const InputLogHeader header_{.version = "1.2.3",
+                                 .scene_name = "a.toml",
+                                 .scene_text = "title = \"quotes, \\ and\nlines\"\n",
+                                 .settings = {"time.step=0.5", "title=\"b\""},
+                                 .input = "/data/a b.gadget2",
+                                 .initial_source = "a file",
+                                 .initial_hash = 0x00ff'0000'0000'0001};
+};
+
+TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
+{
+    InputLogWriter writer(folder_, header_);
+    writer.record({.frame = 7, .command = "pause"});
+    writer.finish({.frames = 12, .state_hash = 0xfedc'ba98'7654'3210});
+
+    const InputLog log = read();
+    EXPECT_EQ(log.header.version, header_.version);
+    EXPECT_EQ(log.header.scene_name, header_.scene_name);
+    EXPECT_EQ(log.header.scene_text, header_.scene_text);
+    EXPECT_EQ(log.header.settings, header_.settings);
+    EXPECT_EQ(log.header.input, header_.input);
+    EXPECT_EQ(log.header.initial_source, header_.initial_source);
+    EXPECT_EQ(log.header.initial_hash, header_.initial_hash);
+    ASSERT_EQ(log.commands.size(), 1U);
+    EXPECT_EQ(log.commands[0].frame, 7U);
+    EXPECT_EQ(log.commands[0].command, "pause");
+    ASSERT_TRUE(log.end);
+    EXPECT_EQ(log.end->frames, 12U);
+    EXPECT_EQ(log.end->state_hash, 0xfedc'ba98'7654'3210);
+}
+
+// The writer is not even closed: each line is in the file when record() returns.
+TEST_F(InputLogTest, ALogThatWasCutShortIsReadWithoutAnEnd)
+{
+    InputLogWriter writer(folder_, header_);
+    writer.record({.frame = 3, .command = "pause"});
+    const InputLog log = read();
+    EXPECT_EQ(log.commands.size(), 1U);
+    EXPECT_FALSE(log.end);
+}
+
+TEST_F(InputLogTest, ABadLineIsNamedByFileAndNumber)
+{
+    for (const char* line :
+         {"not json", "{}", R"({"frames":1,"state_hash":"12"})",
+          R"({"frames":1,"state_hash":"xyzxyzxyzxyzxyzx"})", R"({"frame":1,"command":2})"}) {
+        SCOPED_TRACE(line);
+        InputLogWriter(folder_, header_).record({.frame = 3, .command = "pause"});
+        std::ofstream(file_, std::ios::app) << line << '\n';
+        EXPECT_EQ(problem().find(file_.string() + ":3: "), 0U) << problem();
+    }
+}
+
+TEST_F(InputLogTest, NothingMayFollowTheEnd)
+{
+    InputLogWriter writer(folder_, header_);
+    writer.finish({.frames = 1, .state_hash = 1});
+    writer.record({.frame = 1, .command = "pause"});
+    EXPECT_EQ(problem().find(file_.string() + ":3: "), 0U) << problem();
+}
+
+TEST_F(InputLogTest, AnotherKindOfFileIsNoLog)
+{
+    std::filesystem::create_directories(folder_);
+    for (const char* text : {"", "title = \"a scene\"\n", "{\"format\":\"other\"}\n"}) {
+        std::ofstream(file_) << text;
+        EXPECT_NE(problem(), "") << text;
+    }
+}
+
+// Each change is of one field; the last swaps two particles.
+TEST(ContentHash, CoversEveryFieldAndTheOrder)
+{
+    ParticleSet particles(2);
+    for (std::size_t i = 0; i < 2; ++i)
+        particles[i] = {
+            .position = {1, 2, 3}, .velocity = {4, 5, 6}, .id = i, .mass = 7, .expiry_frame = 8, .kind = 0};
+    const std::uint64_t before = content_hash(particles);
+    EXPECT_EQ(content_hash(particles), before);
+
+    const std::vector<std::function<void(ParticleSet&)>> changes{
+        [](ParticleSet& set) { set[1].position.x() = 9; },
+        [](ParticleSet& set) { set[1].position.y() = 9; },
+        [](ParticleSet& set) { set[1].position.z() = 9; },
+        [](ParticleSet& set) { set[1].velocity.x() = 9; },
+        [](ParticleSet& set) { set[1].velocity.y() = 9; },
+        [](ParticleSet& set) { set[1].velocity.z() = 9; },
+        [](ParticleSet& set) { set[1].id = 9; },
+        [](ParticleSet& set) { set[1].mass = 9; },
+        [](ParticleSet& set) { set[1].expiry_frame = 9; },
+        [](ParticleSet& set) { set[1].kind = 9; },
+        [](ParticleSet& set) { std::swap(set[0], set[1]); },
+        [](ParticleSet& set) { set.pop_back(); }};
+    for (std::size_t change = 0; change < changes.size(); ++change) {
+        ParticleSet changed = particles;
+        changes[change](changed);
+        EXPECT_NE(content_hash(changed), before) << "change " << change;
+    }
+}
+
+} // namespace
+} // namespace slod

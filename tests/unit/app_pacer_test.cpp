@@ -1,0 +1,53 @@
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+#include "app/pacer.hpp"
+
+namespace slod {
+namespace {
+
+using namespace std::chrono_literals;
+using Time = Pacer::Clock::time_point;
+
+constexpr Time start{100s};
+
+// Frames that take no time and wakings that are always late: the due times stay on the grid of 1/rate.
+TEST(Pacer, WakingLateDoesNotAddUp)
+{
+    Pacer pacer(50, start);
+    Time now = start;
+    for (int frame = 1; frame <= 1000; ++frame) {
+        const Time due = pacer.next(now);
+        EXPECT_EQ(due, start + frame * 20ms) << "frame " << frame;
+        now = due + 3ms;
+    }
+}
+
+// One frame takes 70 ms of 20: the next is due at once, and all later ones a full period apart from there.
+TEST(Pacer, ALateFrameMovesTheScheduleAndIsNotCaughtUp)
+{
+    Pacer pacer(50, start);
+    const Time late = start + 70ms;
+    EXPECT_EQ(pacer.next(late), late);
+    EXPECT_EQ(pacer.next(late + 1ms), late + 20ms);
+    EXPECT_EQ(pacer.next(late + 21ms), late + 40ms);
+}
+
+TEST(Pacer, AFrameOnTheDotIsNotLate)
+{
+    Pacer pacer(50, start);
+    EXPECT_EQ(pacer.next(start + 20ms), start + 20ms);
+    EXPECT_EQ(pacer.next(start + 20ms), start + 40ms);
+}
+
+// Without an end of the sleep at the request this would take an hour.
+TEST(Pacer, SleepEndsWhenStopIsRequested)
+{
+    std::stop_source source;
+    source.request_stop();
+    sleep_until(Pacer::Clock::now() + 1h, source.get_token());
+}
+
+} // namespace
+} // namespace slod

@@ -1,0 +1,153 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/report.hpp"
+#include "app/status.hpp"
+
+namespace slod {
+namespace {
+
+Snapshot snapshot(std::uint64_t frame, double forces_ms)
+{
+    Snapshot snapshot;
+    snapshot.frame = frame;
+    snapshot.time = 0.5 * double(frame);
+    snapshot.counts.particles = 1'234'567;
+    snapshot.counts.clusters = 20;
+    snapshot.counts.born = 3;
+    snapshot.counts.interactions = 100;
+    snapshot.profile[Phase::Forces] = forces_ms;
+    return snapshot;
+}
+
+/// A plan with forces and without emitters.
+Plan gravity_plan()
+{
+    Plan plan;
+    plan.runs[std::size_t(Phase::Forces)] = true;
+    return plan;
+}
+
+nlohmann::json reported(const Scene& scene, const RunSummary& summary)
+{
+    return nlohmann::json::parse(report({.scene = scene,
+                                         .plan = gravity_plan(),
+                                         .summary = summary,
+                                         .initial_source = "nowhere",
+                                         .isa = "v3",
+                                         .threads = 2}));
+}
+
+TEST(RunSummary, AddsUpEventsAndKeepsTheLastLevels)
+{
+    RunSummary summary;
+    for (std::uint64_t frame = 1; frame <= 10; ++frame)
+        summary.add(snapshot(frame, 1), 2);
+    EXPECT_EQ(summary.frames, 10U);
+    EXPECT_EQ(summary.time, 5);
+    EXPECT_EQ(summary.events.born, 30U);
+    EXPECT_EQ(summary.events.interactions, 1000U);
+    EXPECT_EQ(summary.particles, 1'234'567U);
+    EXPECT_EQ(summary.clusters, 20U);
+}
+
+// Mass 2 and energy 4: no momentum can be above sqrt(2 * 2 * 4) = 4. All ratios are exact.
+TEST(Drift, IsRelativeToEachQuantitysOwnScale)
+{
+    const ConservedQuantities start{
+        .mass = 2, .momentum = {0, 0, 0}, .angular_momentum = {0, 3, 4}, .kinetic_energy = 4};
+    const ConservedQuantities end{
+        .mass = 1, .momentum = {0, 2, 0}, .angular_momentum = {0, 3, 9}, .kinetic_energy = 5};
+    const Drift change = drift(start, end);
+    EXPECT_EQ(change.mass, -0.5);
+    EXPECT_EQ(change.momentum, 0.5);
+    EXPECT_EQ(change.angular_momentum, 1);
+    EXPECT_EQ(change.kinetic_energy, 0.25);
+}
+
+TEST(Drift, IsNotANumberWhereThereWasNothing)
+{
+    const Drift change = drift({}, {.mass = 1});
+    EXPECT_TRUE(std::isnan(change.mass));
+    EXPECT_TRUE(std::isnan(change.angular_momentum));
+}
+
+// The keys are promised to those who read reports; losing one breaks them.
+TEST(Report, HasThePromisedKeys)
+{
+    RunSummary summary;
+    summary.add(snapshot(1, 1), 2);
+    summary.state_hash = 0xabc;
+    Scene scene;
+    scene.title = "a scene";
+    const nlohmann::json json = reported(scene, summary);
+    for (const char* pointer :
+         {"/scene", "/threads", "/isa", "/frames", "/particles", "/clusters", "/state_hash",
+          "/ms_per_frame/median", "/ms_per_frame/p99", "/phases/forces/ms_median", "/drift/mass",
+          "/drift/momentum", "/drift/angular_momentum", "/drift/kinetic_energy", "/counts/born",
+          "/counts/interactions", "/version", "/settings/time/step"})
+        EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
+    EXPECT_EQ(json["scene"], "a scene");
+    EXPECT_EQ(json["state_hash"], "0000000000000abc");
+    EXPECT_EQ(json["counts"].size(), event_counts.size());
+}
+
+TEST(Report, APhaseThatIsNotPlannedIsAbsent)
+{
+    RunSummary summary;
+    summary.add(snapshot(1, 1), 2);
+    const nlohmann::json phases = reported({}, summary)["phases"];
+    EXPECT_EQ(phases.size(), 1U);
+    EXPECT_FALSE(phases.contains("emit"));
+}
+
+TEST(Report, ARatioWithoutAScaleIsNull)
+{
+    EXPECT_TRUE(reported({}, {})["drift"]["mass"].is_null());
+}
+
+TEST(Report, SettingsAreThoseInEffect)
+{
+    Scene scene;
+    scene.simulation.time.step = 0.25;
+    scene.simulation.linear_drag = LinearDragSettings{.rate = 3};
+    scene.simulation.emitters.resize(2);
+    scene.simulation.emitters[1].name = "left";
+    const nlohmann::json settings = reported(scene, {})["settings"];
+    EXPECT_EQ(settings["time"]["step"], 0.25);
+    EXPECT_EQ(settings["linear_drag"]["rate"], 3);
+    EXPECT_FALSE(settings.contains("gravity")) << "the scene has none";
+    EXPECT_EQ(settings["emitter"][1]["name"], "left");
+    EXPECT_EQ(settings["emitter"][1]["lifetime"], "inf");
+    EXPECT_EQ(settings["emitter"][1]["direction"], nlohmann::json({0.0, 0.0, 1.0}));
+    EXPECT_EQ(settings["motion"]["kind"], "flow");
+}
+
+TEST(Status, NamesThePlannedPhasesAlone)
+{
+    LoopMeans means;
+    means.profile[Phase::Forces] = 7.25;
+    for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan()),
+                                    status_record(snapshot(8, 0), means, gravity_plan())}) {
+        EXPECT_NE(text.find("7.25"), std::string::npos) << text;
+        EXPECT_NE(text.find("forces"), std::string::npos) << text;
+        EXPECT_EQ(text.find("emit"), std::string::npos) << text;
+    }
+}
+
+TEST(Status, IsReadableForPeopleAndForPrograms)
+{
+    LoopMeans means;
+    means.real_time_factor = 1;
+    EXPECT_NE(status_line(snapshot(8, 0), means, {}).find("x1.00  1,234,567 particles"), std::string::npos);
+    means.real_time_factor = 3.15576e15;
+    EXPECT_NE(status_line(snapshot(8, 0), means, {}).find("100 Myr/s"), std::string::npos);
+    EXPECT_NE(status_record(snapshot(8, 0), means, {}).find(" particles=1234567 "), std::string::npos);
+}
+
+} // namespace
+} // namespace slod
