@@ -1,0 +1,139 @@
+#include "common/connection.hpp"
+
+namespace slod::client {
+
+namespace {
+
+/// Samples taken of one topic per poll: a flood cannot hold a client for ever.
+constexpr int samples_per_poll = 256;
+
+std::chrono::nanoseconds age(const dds_sample_info_t& info)
+{
+    return std::chrono::nanoseconds(dds_time() - info.source_timestamp);
+}
+
+} // namespace
+
+Connection::Connection(std::uint32_t domain, wire::Profile profile, const Subscription& subscription)
+    : domain_(domain), profile_(profile), participant_(domain, profile), arrivals_(participant_),
+      state_reader_(participant_), assembler_(subscription.region)
+{
+    arrivals_.watch(state_reader_);
+    if (subscription.stats)
+        arrivals_.watch(stats_reader_.emplace(participant_));
+    if (subscription.overview)
+        arrivals_.watch(overview_reader_.emplace(participant_));
+    if (subscription.clusters) {
+        const std::string region = subscription.region.empty() ? "*" : subscription.region;
+        arrivals_.watch(
+            clusters_reader_.emplace(participant_, wire::region_partition(region), subscription.repair));
+        arrivals_.watch(manifest_reader_.emplace(participant_));
+    }
+}
+
+void Connection::poll()
+{
+    take_states();
+    take_stats();
+    take_frames();
+}
+
+void Connection::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout)
+{
+    const std::stop_callback wake(stop, [this] { arrivals_.wake(); });
+    if (!stop.stop_requested())
+        arrivals_.wait(timeout);
+    poll();
+}
+
+Status Connection::status() const
+{
+    const Clock::time_point now = Clock::now();
+    if (watch_.server())
+        return watch_.status(now);
+    const std::string where = " on domain " + std::to_string(domain_) + " (" +
+                              std::string(names(profile_)[std::size_t(profile_)]) + ")";
+    if (state_reader_.misfits() > 0)
+        return {Contact::NoServer, "the server" + where + " speaks another version of the protocol"};
+    return {Contact::NoServer, "no server was heard" + where};
+}
+
+void Connection::take_states()
+{
+    const Clock::time_point now = Clock::now();
+    state_reader_.take_each(samples_per_poll,
+                            [&](const wire::ServerState& state, const dds_sample_info_t& info) {
+                                if (info.valid_data)
+                                    watch_.on_state(state, now);
+                                if (info.instance_state != DDS_IST_ALIVE)
+                                    watch_.on_gone(wire::uuid_of(state.session),
+                                                   info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED, now);
+                            });
+    follow_session();
+}
+
+void Connection::follow_session()
+{
+    const ServerInfo* server = watch_.server();
+    if (!server || session_ == server->session)
+        return;
+    session_ = server->session;
+    stats_.reset();
+    overview_.reset();
+    assembler_.reset();
+    stats_meter_.reset();
+    overview_meter_.reset();
+    clusters_meter_.reset();
+}
+
+template <class Message>
+bool Connection::is_ours(const Message& message, const dds_sample_info_t& info) const
+{
+    return info.valid_data && session_ == wire::uuid_of(message.session);
+}
+
+template <class Message>
+void Connection::measure(StreamMeter& meter, const Message& message, const dds_sample_info_t& info) const
+{
+    meter.on_sample(message.serial, wire::wire_bytes(message), age(info), Clock::now());
+}
+
+void Connection::take_stats()
+{
+    if (stats_reader_)
+        stats_reader_->take_each(samples_per_poll,
+                                 [&](const wire::Stats& stats, const dds_sample_info_t& info) {
+                                     if (!is_ours(stats, info))
+                                         return;
+                                     assign(stats_ ? *stats_ : stats_.emplace(), stats);
+                                     measure(stats_meter_, stats, info);
+                                 });
+}
+
+void Connection::take_frames()
+{
+    if (overview_reader_)
+        overview_reader_->take_each(samples_per_poll,
+                                    [&](const wire::Overview& overview, const dds_sample_info_t& info) {
+                                        if (!is_ours(overview, info))
+                                            return;
+                                        assign(overview_ ? *overview_ : overview_.emplace(), overview);
+                                        measure(overview_meter_, overview, info);
+                                    });
+    if (!clusters_reader_)
+        return;
+    clusters_reader_->take_each(samples_per_poll,
+                                [&](const wire::Clusters& clusters, const dds_sample_info_t& info) {
+                                    if (!is_ours(clusters, info))
+                                        return;
+                                    assembler_.on_clusters(clusters);
+                                    measure(clusters_meter_, clusters, info);
+                                });
+    manifest_reader_->take_each(samples_per_poll,
+                                [&](const wire::FrameManifest& manifest, const dds_sample_info_t& info) {
+                                    if (is_ours(manifest, info))
+                                        assembler_.on_manifest(manifest);
+                                });
+}
+
+} // namespace slod::client

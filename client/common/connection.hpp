@@ -1,0 +1,84 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "common/frame_assembler.hpp"
+#include "common/messages.hpp"
+#include "common/server_watch.hpp"
+#include "common/stream_meter.hpp"
+#include "idl/dds.hpp"
+
+namespace slod::client {
+
+/// What a client reads besides the server's state. What it does not read the server does not send, nor,
+/// when nobody does, compute.
+struct Subscription {
+    bool stats = false;
+    bool clusters = false;
+    bool overview = false;
+    std::string region{};                         ///< of the clusters; empty: all
+    wire::Repair repair = wire::Repair::AskAgain; ///< of the clusters
+};
+
+/// A client's end of the wire: the server that is followed, and the newest of everything subscribed to.
+/// Call it from one thread. What it hands out is valid until the next poll() or wait().
+class Connection {
+public:
+    /// Throws wire::DdsError with a remedy when the domain cannot be joined.
+    Connection(std::uint32_t domain, wire::Profile profile, const Subscription& subscription);
+
+    /// Takes in what has arrived.
+    void poll();
+
+    /// Waits until something arrives, `timeout` passes or stop is requested; then takes it in.
+    void wait(const std::stop_token& stop, std::chrono::nanoseconds timeout);
+
+    Status status() const;
+
+    /// The server that is followed, as it last said; null when there never was one.
+    const ServerInfo* server() const { return watch_.server(); }
+    std::size_t other_servers() const { return watch_.others(); }
+
+    /// Null before the first sample of the present session.
+    const ServerStats* stats() const { return stats_ ? &*stats_ : nullptr; }
+    const OverviewNodes* overview() const { return overview_ ? &*overview_ : nullptr; }
+    const ClusterFrame* frame() const { return assembler_.newest(); }
+    std::uint64_t complete_frames() const { return assembler_.complete_count(); }
+
+    StreamMeter::Report clusters_traffic() const { return clusters_meter_.report(Clock::now()); }
+    StreamMeter::Report overview_traffic() const { return overview_meter_.report(Clock::now()); }
+    StreamMeter::Report stats_traffic() const { return stats_meter_.report(Clock::now()); }
+
+private:
+    void take_states();
+    void take_stats();
+    void take_frames();
+    void follow_session();
+    template <class Message>
+    bool is_ours(const Message& message, const dds_sample_info_t& info) const;
+    template <class Message>
+    void measure(StreamMeter& meter, const Message& message, const dds_sample_info_t& info) const;
+
+    std::uint32_t domain_;
+    wire::Profile profile_;
+    wire::Participant participant_;
+    wire::WaitSet arrivals_;
+    wire::Reader<wire::ServerState> state_reader_;
+    std::optional<wire::Reader<wire::Stats>> stats_reader_;
+    std::optional<wire::Reader<wire::Overview>> overview_reader_;
+    std::optional<wire::Reader<wire::Clusters>> clusters_reader_;
+    std::optional<wire::Reader<wire::FrameManifest>> manifest_reader_;
+
+    ServerWatch watch_;
+    std::optional<wire::Uuid> session_; ///< of what is kept below
+    std::optional<ServerStats> stats_;
+    std::optional<OverviewNodes> overview_;
+    FrameAssembler assembler_;
+    StreamMeter stats_meter_, overview_meter_, clusters_meter_;
+};
+
+} // namespace slod::client

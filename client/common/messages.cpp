@@ -1,0 +1,110 @@
+#include "common/messages.hpp"
+
+namespace slod::client {
+
+namespace {
+
+template <class Sequence, class Element>
+void copy(std::vector<Element>& to, const Sequence& from)
+{
+    const auto elements = wire::span_of(from);
+    to.assign(elements.begin(), elements.end());
+}
+
+std::array<double, 3> array_of(const slod_v1_Vector& from)
+{
+    return {from.x, from.y, from.z};
+}
+
+Conserved conserved_of(const slod_v1_ConservedQuantities& from)
+{
+    return {.mass = from.mass,
+            .momentum = array_of(from.momentum),
+            .angular_momentum = array_of(from.angular_momentum),
+            .kinetic_energy = from.kinetic_energy,
+            .potential_energy = from.potential_energy};
+}
+
+} // namespace
+
+void assign(ServerInfo& to, const wire::ServerState& from)
+{
+    to.session = wire::uuid_of(from.session);
+    to.heartbeat = from.heartbeat;
+    to.frame = from.frame;
+    to.time = from.time;
+    to.idle_ms = from.idle_ms;
+    to.paused = from.paused;
+    to.frame_rate_hz = from.frame_rate_hz;
+    to.real_time_factor = from.real_time_factor;
+    to.particles = from.particles;
+    to.max_sample_bytes = from.max_sample_bytes;
+    to.length_m = from.units.length_m;
+    to.mass_kg = from.units.mass_kg;
+    to.time_s = from.units.time_s;
+    to.time_step = from.time_step;
+    to.scene_title = from.scene_title;
+    to.version = from.version;
+    to.isa = from.isa;
+    to.threads = from.threads;
+    to.host = from.host;
+    to.process = from.process;
+    to.started_ns = from.started_ns;
+    to.topics.clear();
+    for (const slod_v1_TopicName& topic : wire::span_of(from.topics))
+        to.topics.emplace_back(topic.name);
+}
+
+void assign(ServerStats& to, const wire::Stats& from)
+{
+    to.frame = from.frame;
+    to.time = from.time;
+    to.frame_rate_hz = from.frame_rate_hz;
+    to.work_ms = from.work_ms;
+    to.real_time_factor = from.real_time_factor;
+    to.particles = from.particles;
+    to.clusters = from.clusters;
+    to.phases_ms.clear();
+    for (const slod_v1_PhaseTime& phase : wire::span_of(from.phases))
+        to.phases_ms.emplace_back(phase.name, phase.ms);
+    to.counts.clear();
+    for (const slod_v1_NamedCount& count : wire::span_of(from.counts))
+        to.counts.emplace_back(count.name, count.count);
+    to.conserved_measured = from.conserved_measured;
+    to.conserved = conserved_of(from.conserved);
+    to.drift = conserved_of(from.drift);
+    to.wire = from.wire;
+}
+
+void assign(RegionClusters& to, const wire::Clusters& from)
+{
+    to.region = from.region;
+    to.frame = from.frame;
+    to.time = from.time;
+    to.region_clusters = from.region_clusters;
+    to.clusters_per_node = from.clusters_per_node;
+    to.origin = array_of(from.origin);
+    copy(to.position, from.position);
+    copy(to.velocity, from.velocity);
+    copy(to.mass, from.mass);
+    copy(to.particles, from.particles);
+    copy(to.covariance, from.covariance);
+    copy(to.cluster_id, from.cluster_id);
+    copy(to.formation, from.formation);
+}
+
+void assign(OverviewNodes& to, const wire::Overview& from)
+{
+    to.frame = from.frame;
+    to.time = from.time;
+    to.scene_clusters = from.scene_clusters;
+    to.clusters_per_node = from.clusters_per_node;
+    to.origin = array_of(from.origin);
+    copy(to.position, from.position);
+    copy(to.velocity, from.velocity);
+    copy(to.mass, from.mass);
+    copy(to.particles, from.particles);
+    copy(to.radius, from.radius);
+}
+
+} // namespace slod::client

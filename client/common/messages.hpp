@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "idl/messages.hpp"
+
+/// What clients keep of the messages: their own memory, in C++ types. Meanings and units are slod.idl's.
+namespace slod::client {
+
+struct ServerInfo {
+    wire::Uuid session{};
+    std::uint64_t heartbeat = 0;
+    std::uint64_t frame = 0;
+    double time = 0;
+    double idle_ms = 0;
+    bool paused = false;
+    double frame_rate_hz = 0;
+    double real_time_factor = 0;
+    std::uint64_t particles = 0;
+    std::uint64_t max_sample_bytes = 0;
+    double length_m = 1, mass_kg = 1, time_s = 1;
+    double time_step = 0;
+    std::string scene_title;
+    std::string version;
+    std::string isa;
+    std::uint32_t threads = 0;
+    std::string host;
+    std::uint32_t process = 0;
+    std::int64_t started_ns = 0;
+    std::vector<std::string> topics;
+};
+
+struct Conserved {
+    double mass = 0;
+    std::array<double, 3> momentum{};
+    std::array<double, 3> angular_momentum{};
+    double kinetic_energy = 0;
+    double potential_energy = 0;
+};
+
+struct ServerStats {
+    std::uint64_t frame = 0;
+    double time = 0;
+    double frame_rate_hz = 0;
+    double work_ms = 0;
+    double real_time_factor = 0;
+    std::uint64_t particles = 0;
+    std::uint64_t clusters = 0;
+    std::vector<std::pair<std::string, double>> phases_ms;
+    std::vector<std::pair<std::string, std::uint64_t>> counts;
+    bool conserved_measured = false;
+    Conserved conserved, drift;
+    wire::PublisherCounts wire{};
+};
+
+/// Nodes of one region in one frame.
+struct RegionClusters {
+    std::string region;
+    std::uint64_t frame = 0;
+    double time = 0;
+    std::uint64_t region_clusters = 0;
+    std::uint32_t clusters_per_node = 1;
+    std::array<double, 3> origin{};
+    std::vector<float> position; ///< xyz, relative to origin
+    std::vector<float> velocity; ///< xyz
+    std::vector<float> mass;
+    std::vector<std::uint32_t> particles;
+    std::vector<float> covariance; ///< xx xy xz yy yz zz
+    std::vector<std::uint64_t> cluster_id;
+    std::vector<std::uint64_t> formation;
+};
+
+struct OverviewNodes {
+    std::uint64_t frame = 0;
+    double time = 0;
+    std::uint64_t scene_clusters = 0;
+    std::uint32_t clusters_per_node = 1;
+    std::array<double, 3> origin{};
+    std::vector<float> position; ///< xyz, relative to origin
+    std::vector<float> velocity; ///< xyz
+    std::vector<float> mass;
+    std::vector<std::uint32_t> particles;
+    std::vector<float> radius;
+};
+
+/// Copies of a message; the sequences re-use the memory of the target.
+void assign(ServerInfo& to, const wire::ServerState& from);
+void assign(ServerStats& to, const wire::Stats& from);
+void assign(RegionClusters& to, const wire::Clusters& from);
+void assign(OverviewNodes& to, const wire::Overview& from);
+
+} // namespace slod::client

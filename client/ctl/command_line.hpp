@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "idl/profile.hpp"
+
+namespace slod::ctl {
+
+/// What slodctl tells its caller; the codes of BSD's sysexits.h where they fit.
+enum class ExitCode : int {
+    Success = 0,
+    Failure = 1,          ///< the network could not be joined
+    Usage = 2,            ///< the command line cannot be understood
+    InvalidArgument = 65, ///< it can, but a value in it cannot be right
+    NotFound = 66,        ///< a name that was asked for does not exist
+    NoServer = 69,
+    TimedOut = 75,     ///< a server is there, but the answer did not come in time
+    NotPermitted = 77, ///< the domain's security forbids it
+};
+
+/// What was asked for.
+struct CommandLine {
+    std::string command;
+    bool json = false;    ///< one object per line instead of text
+    double timeout_s = 3; ///< for a server, and for the answer
+    std::uint32_t domain = 0;
+    wire::Profile profile = wire::Profile::Loopback;
+    std::uint64_t count = 0;        ///< watch: updates; 0: until stopped
+    bool clusters = false;          ///< watch: receive the cluster states too
+    bool best_effort = false;       ///< watch: do not ask again for lost fragments of them
+    std::vector<std::string> names; ///< stats: values to print; empty: all
+};
+
+/// Reads the command line. When it is wrong, or asks for --help or --version alone, has already printed what
+/// there is to say and gives the exit code.
+std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* const* argv);
+
+} // namespace slod::ctl

@@ -1,0 +1,45 @@
+#include "ctl/commands.hpp"
+
+#include <array>
+
+#include <CLI/CLI.hpp>
+
+namespace slod::ctl {
+
+namespace {
+
+void declare_nothing(CLI::App&, CommandLine&) {}
+
+void declare_watch(CLI::App& app, CommandLine& line)
+{
+    app.add_option("--count", line.count, "End after so many updates; without it, on Ctrl-C")
+        ->check(CLI::PositiveNumber)
+        ->option_text("N");
+    app.add_flag("--clusters", line.clusters,
+                 "Receive the cluster states too; show their rate, latency, loss");
+    app.add_flag("--best-effort", line.best_effort, "With --clusters: do not ask again for what got lost");
+}
+
+void declare_stats(CLI::App& app, CommandLine& line)
+{
+    app.add_option("NAME", line.names,
+                   "Values to print, such as work_ms or phases_ms.forces; without it, all");
+}
+
+constexpr std::array all_commands{
+    CommandEntry{"status", "Say which server there is, what it runs and whether it is live or stalled.",
+                 declare_nothing, run_status},
+    CommandEntry{"watch", "Show once a second how the server and the connection do, until Ctrl-C.",
+                 declare_watch, run_watch},
+    CommandEntry{"stats", "Print the statistics of one frame: times by phase, counts, conserved quantities.",
+                 declare_stats, run_stats},
+};
+
+} // namespace
+
+std::span<const CommandEntry> commands()
+{
+    return all_commands;
+}
+
+} // namespace slod::ctl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <string_view>
+
+#include "ctl/command_line.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace slod::ctl {
+
+/// One command of slodctl.
+struct CommandEntry {
+    std::string_view name;
+    std::string_view help;                             ///< what it does, for --help
+    void (*declare)(CLI::App& app, CommandLine& line); ///< its own options
+    ExitCode (*run)(const CommandLine& line, const std::stop_token& stop);
+};
+
+/// All commands; the only list of them.
+std::span<const CommandEntry> commands();
+
+ExitCode run_status(const CommandLine& line, const std::stop_token& stop);
+ExitCode run_watch(const CommandLine& line, const std::stop_token& stop);
+ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
+
+} // namespace slod::ctl

@@ -1,0 +1,151 @@
+#include "ctl/output.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+namespace slod::ctl {
+
+namespace {
+
+Json json_of(const client::Conserved& conserved)
+{
+    return {{"mass", conserved.mass},
+            {"momentum", conserved.momentum},
+            {"angular_momentum", conserved.angular_momentum},
+            {"kinetic_energy", conserved.kinetic_energy},
+            {"potential_energy", conserved.potential_energy}};
+}
+
+Json json_of(const wire::PublisherCounts& counts)
+{
+    return {{"offered_frames", counts.offered_frames},   {"published_frames", counts.published_frames},
+            {"skipped_frames", counts.skipped_frames},   {"refused_samples", counts.refused_samples},
+            {"published_bytes", counts.published_bytes}, {"encode_ms", counts.encode_ms}};
+}
+
+/// A number with six digits, which is what one reads; everything else as JSON has it, without quotes.
+std::string text_of(const Json& value)
+{
+    if (value.is_string())
+        return value.get<std::string>();
+    if (!value.is_number_float())
+        return value.dump();
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.6g", value.get<double>());
+    return text.data();
+}
+
+using Fields = std::vector<std::pair<std::string, std::string>>;
+
+void flatten(const std::string& prefix, const Json& object, Fields& fields)
+{
+    for (const auto& [name, value] : object.items()) {
+        const std::string path = prefix.empty() ? name : prefix + "." + name;
+        if (value.is_object())
+            flatten(path, value, fields);
+        else
+            fields.emplace_back(path, text_of(value));
+    }
+}
+
+Fields fields_of(const Json& object)
+{
+    Fields fields;
+    flatten({}, object, fields);
+    return fields;
+}
+
+} // namespace
+
+Json json_of(const client::Status& status)
+{
+    return {{"contact", names(status.contact)[std::size_t(status.contact)]}, {"reason", status.reason}};
+}
+
+Json json_of(const client::ServerInfo& server)
+{
+    return {
+        {"session", wire::to_string(server.session)},
+        {"scene_title", server.scene_title},
+        {"frame", server.frame},
+        {"time", server.time},
+        {"paused", server.paused},
+        {"idle_ms", server.idle_ms},
+        {"frame_rate_hz", server.frame_rate_hz},
+        {"real_time_factor", server.real_time_factor},
+        {"particles", server.particles},
+        {"time_step", server.time_step},
+        {"units", {{"length_m", server.length_m}, {"mass_kg", server.mass_kg}, {"time_s", server.time_s}}},
+        {"version", server.version},
+        {"isa", server.isa},
+        {"threads", server.threads},
+        {"host", server.host},
+        {"process", server.process},
+        {"heartbeat", server.heartbeat},
+        {"max_sample_bytes", server.max_sample_bytes},
+        {"topics", server.topics}};
+}
+
+Json json_of(const client::ServerStats& stats)
+{
+    Json json = {{"frame", stats.frame},
+                 {"time", stats.time},
+                 {"frame_rate_hz", stats.frame_rate_hz},
+                 {"work_ms", stats.work_ms},
+                 {"real_time_factor", stats.real_time_factor},
+                 {"particles", stats.particles},
+                 {"clusters", stats.clusters}};
+    for (const auto& [name, ms] : stats.phases_ms)
+        json["phases_ms"][name] = ms;
+    for (const auto& [name, count] : stats.counts)
+        json["counts"][name] = count;
+    if (stats.conserved_measured) {
+        json["conserved"] = json_of(stats.conserved);
+        json["drift"] = json_of(stats.drift);
+    }
+    json["wire"] = json_of(stats.wire);
+    return json;
+}
+
+Json json_of(const client::StreamMeter::Report& traffic)
+{
+    return {{"received", traffic.received},
+            {"lost", traffic.lost},
+            {"bytes", traffic.bytes},
+            {"rate_hz", traffic.rate_hz},
+            {"bytes_per_s", traffic.bytes_per_s},
+            {"latency_p50_ms", traffic.latency_p50_ms},
+            {"latency_p99_ms", traffic.latency_p99_ms}};
+}
+
+void print(const Json& object, bool as_json)
+{
+    if (as_json) {
+        std::puts(object.dump().c_str());
+    } else {
+        const Fields fields = fields_of(object);
+        std::size_t width = 0;
+        for (const auto& [name, value] : fields)
+            width = std::max(width, name.size());
+        for (const auto& [name, value] : fields)
+            std::printf("%-*s  %s\n", int(width), name.c_str(), value.c_str());
+    }
+    std::fflush(stdout);
+}
+
+std::string one_line(const Json& object)
+{
+    std::string line;
+    for (const auto& [name, value] : fields_of(object))
+        line += (line.empty() ? "" : " ") + name + "=" + value;
+    return line;
+}
+
+void complain(const std::string& sentence)
+{
+    std::fprintf(stderr, "slodctl: %s\n", sentence.c_str());
+}
+
+} // namespace slod::ctl

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "common/connection.hpp"
+
+namespace slod::ctl {
+
+using Json = nlohmann::ordered_json; ///< keeps the order below, which is the order of the text output
+
+/// The fields of what is known, named as in slod.idl. NaN becomes null.
+Json json_of(const client::Status& status);
+Json json_of(const client::ServerInfo& server);
+Json json_of(const client::ServerStats& stats);
+Json json_of(const client::StreamMeter::Report& traffic);
+
+/// Prints a JSON object, or its fields with dotted names one per line, to stdout and flushes it.
+void print(const Json& object, bool as_json);
+
+/// One line, "a=1 b.c=2".
+std::string one_line(const Json& object);
+
+/// Prints one sentence to stderr.
+void complain(const std::string& sentence);
+
+} // namespace slod::ctl

@@ -1,0 +1,89 @@
+#include <cstdio>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "ctl/commands.hpp"
+#include "ctl/waiting.hpp"
+
+namespace slod::ctl {
+
+namespace {
+
+constexpr std::chrono::seconds update_period{1};
+
+/// What one update says.
+Json update_of(const client::Connection& connection, bool with_clusters)
+{
+    const client::Status status = connection.status();
+    Json update = json_of(status);
+    if (status.contact != client::Contact::NoServer) {
+        const client::ServerInfo& server = *connection.server();
+        update["frame"] = server.frame;
+        update["time"] = server.time;
+        update["frame_rate_hz"] = server.frame_rate_hz;
+        update["real_time_factor"] = server.real_time_factor;
+        update["particles"] = server.particles;
+    }
+    if (const client::ServerStats* stats = connection.stats()) {
+        update["work_ms"] = stats->work_ms;
+        update["clusters"] = stats->clusters;
+    }
+    if (with_clusters) {
+        update["complete_frames"] = connection.complete_frames();
+        update["receive"] = json_of(connection.clusters_traffic());
+    }
+    return update;
+}
+
+/// Characters that fit on a line of the terminal that stdout is; 0 when it is none.
+std::size_t terminal_width()
+{
+    winsize size{};
+    const bool terminal = isatty(STDOUT_FILENO) != 0 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0;
+    return terminal ? size.ws_col : 0;
+}
+
+void show(const Json& update, bool as_json)
+{
+    const std::size_t width = terminal_width();
+    if (as_json) {
+        print(update, true);
+    } else if (width > 0) {
+        constexpr const char* line_start_and_clear = "\r\033[K";
+        std::printf("%s%s", line_start_and_clear, one_line(update).substr(0, width - 1).c_str());
+    } else {
+        std::puts(one_line(update).c_str());
+    }
+    std::fflush(stdout);
+}
+
+} // namespace
+
+ExitCode run_watch(const CommandLine& line, const std::stop_token& stop)
+{
+    const client::Subscription subscription{.stats = true,
+                                            .clusters = line.clusters,
+                                            .repair = line.best_effort ? wire::Repair::GoOn
+                                                                       : wire::Repair::AskAgain};
+    client::Connection connection(line.domain, line.profile, subscription);
+    if (!wait_for_server(connection, stop, deadline(line)))
+        return ExitCode::NoServer;
+    client::Clock::time_point next = client::Clock::now();
+    for (std::uint64_t update = 0; line.count == 0 || update < line.count; ++update) {
+        next += update_period;
+        wait_until(connection, stop, next, [] { return false; });
+        if (stop.stop_requested())
+            break;
+        show(update_of(connection, line.clusters), line.json);
+    }
+    if (!line.json && terminal_width() > 0)
+        std::puts("");
+    const bool present = connection.status().contact != client::Contact::NoServer;
+    if (!present)
+        complain(connection.status().reason);
+    else if (line.clusters)
+        warn_of_large_samples(connection);
+    return present ? ExitCode::Success : ExitCode::NoServer;
+}
+
+} // namespace slod::ctl

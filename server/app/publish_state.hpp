@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "app/publish_fields.hpp"
+#include "app/publisher.hpp"
+#include "idl/messages.hpp"
+
+namespace slod {
+
+/// The server's sign of life.
+class StateEncoder {
+public:
+    /// `topics` are those this server writes or reads.
+    StateEncoder(const wire::Uuid& session, const Publisher::Session& facts,
+                 std::span<const std::string_view> topics);
+
+    /// Takes over the newest frame.
+    void set_frame(const FrameStamp& stamp, std::uint64_t particles, const LoopStats& loop);
+
+    /// `idle_ms` is the wall time since the newest frame was completed.
+    const wire::ServerState& encode(double idle_ms, std::uint64_t max_sample_bytes);
+
+private:
+    std::vector<slod_v1_TopicName> topics_;
+    wire::ServerState message_{};
+};
+
+} // namespace slod

@@ -1,0 +1,95 @@
+#include "app/publish_stats.hpp"
+
+#include <limits>
+#include <string_view>
+
+#include "app/publish_fields.hpp"
+
+namespace slod {
+
+namespace {
+
+slod_v1_ConservedQuantities conserved_message(const ConservedQuantities& quantities)
+{
+    return {.mass = quantities.mass,
+            .momentum = message_of(quantities.momentum),
+            .angular_momentum = message_of(quantities.angular_momentum),
+            .kinetic_energy = quantities.kinetic_energy,
+            .potential_energy = std::numeric_limits<double>::quiet_NaN()};
+}
+
+ConservedQuantities difference(const ConservedQuantities& now, const ConservedQuantities& before)
+{
+    return {.mass = now.mass - before.mass,
+            .momentum = now.momentum - before.momentum,
+            .angular_momentum = now.angular_momentum - before.angular_momentum,
+            .kinetic_energy = now.kinetic_energy - before.kinetic_energy};
+}
+
+/// A snapshot that was not asked for conserved quantities has zeros.
+bool measured(const ConservedQuantities& quantities)
+{
+    return quantities.mass != 0 || quantities.kinetic_energy != 0;
+}
+
+} // namespace
+
+StatsEncoder::StatsEncoder(const wire::Uuid& session)
+{
+    wire::set(message_.session, session);
+}
+
+const wire::Stats& StatsEncoder::encode(const Snapshot& snapshot, const LoopStats& loop,
+                                        const wire::PublisherCounts& published)
+{
+    stamp_next(message_, {.frame = snapshot.frame, .time = snapshot.time});
+    message_.frame_rate_hz = loop.frame_rate_hz;
+    message_.work_ms = loop.work_ms;
+    message_.real_time_factor = loop.real_time_factor;
+    message_.particles = snapshot.counts.particles;
+    message_.clusters = snapshot.counts.clusters;
+    encode_phases(snapshot.profile);
+    encode_counts(snapshot.counts);
+    encode_conserved(snapshot.conserved);
+    message_.wire = published;
+    return message_;
+}
+
+void StatsEncoder::encode_phases(const StepProfile& profile)
+{
+    phases_.resize(phase_count);
+    for (std::size_t i = 0; i < phase_count; ++i) {
+        wire::set(phases_[i].name, names(Phase{})[i]);
+        phases_[i].ms = profile[Phase(i)];
+    }
+    wire::lend(message_.phases, phases_);
+}
+
+void StatsEncoder::encode_counts(const FrameCounts& counts)
+{
+    counts_.clear();
+    const auto add = [this](std::string_view name, std::uint64_t count) {
+        slod_v1_NamedCount& entry = counts_.emplace_back();
+        wire::set(entry.name, name);
+        entry.count = count;
+    };
+    add("pools", counts.pools);
+    for (const EventCount& event : event_counts)
+        add(event.name, counts.*event.count);
+    wire::lend(message_.counts, counts_);
+}
+
+void StatsEncoder::encode_conserved(const ConservedQuantities& now)
+{
+    message_.conserved_measured = measured(now);
+    message_.conserved = {};
+    message_.drift = {};
+    if (!message_.conserved_measured)
+        return;
+    if (!first_conserved_)
+        first_conserved_ = now;
+    message_.conserved = conserved_message(now);
+    message_.drift = conserved_message(difference(now, *first_conserved_));
+}
+
+} // namespace slod

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/publisher.hpp"
+#include "idl/messages.hpp"
+#include "sim/snapshot.hpp"
+
+namespace slod {
+
+/// Turns a frame's counts and times into a message. Keeps its memory.
+class StatsEncoder {
+public:
+    explicit StatsEncoder(const wire::Uuid& session);
+
+    /// The clusters of `snapshot` are not looked at. The message is valid until the next call.
+    const wire::Stats& encode(const Snapshot& snapshot, const LoopStats& loop,
+                              const wire::PublisherCounts& published);
+
+private:
+    void encode_phases(const StepProfile& profile);
+    void encode_counts(const FrameCounts& counts);
+    void encode_conserved(const ConservedQuantities& now);
+
+    std::vector<slod_v1_PhaseTime> phases_;
+    std::vector<slod_v1_NamedCount> counts_;
+    std::optional<ConservedQuantities> first_conserved_;
+    wire::Stats message_{};
+};
+
+} // namespace slod

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "scene/server_settings.hpp"
+#include "sim/settings.hpp"
+#include "sim/snapshot.hpp"
+
+namespace slod {
+
+/// How the server's loop goes, as means over about the last second.
+struct LoopStats {
+    double frame_rate_hz;
+    double work_ms;          ///< of a frame, without the wait for the next
+    double real_time_factor; ///< scene time per wall time
+    bool paused;
+};
+
+/// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop
+/// hands frames in; whatever the network and the clients do, it never waits. All functions but the
+/// constructor are called by the loop's thread alone.
+class Publisher {
+public:
+    /// What clients are told about the server and its scene.
+    struct Session {
+        std::string scene_title;
+        Units units;
+        double time_step; ///< scene time per frame
+        std::uint64_t particles;
+        int threads;
+        std::string isa;
+        std::string version;
+    };
+
+    /// What was done since the start.
+    struct Counters {
+        std::uint64_t frames_offered = 0;   ///< with or without clusters
+        std::uint64_t frames_published = 0; ///< whose clusters or overview were written
+        std::uint64_t frames_skipped = 0;  ///< whose clusters a newer frame replaced before they were encoded
+        std::uint64_t samples_refused = 0; ///< by DDS, of any topic
+        std::uint64_t bytes = 0;           ///< of all samples, once per sample whatever the number of readers
+        double encode_ms = 0;              ///< wall time to encode and write the last frame
+    };
+
+    /// Joins the domain and announces the session. Throws std::runtime_error with a remedy when it cannot.
+    Publisher(const WireSettings& settings, const Session& session);
+
+    /// Takes leave of the clients.
+    ~Publisher();
+
+    /// Whether the next snapshot should have clusters: somebody reads them or the overview, and by the rates
+    /// in the settings a frame is due.
+    bool clusters_wanted() const;
+
+    /// Copies the frame into a slot that holds the newest one, and returns.
+    void offer(const Snapshot& snapshot, const LoopStats& loop);
+
+    Counters counters() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace slod
