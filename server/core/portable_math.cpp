@@ -10,6 +10,17 @@ namespace {
 constexpr double ln2_high = 6.93147180369123816490e-01;
 constexpr double ln2_low = 1.90821492927058770002e-10;
 
+/// x = k ln 2 + r with |r| <= ln(2)/2.
+struct Reduced {
+    double k, r;
+};
+
+Reduced reduce(double x)
+{
+    const double k = std::nearbyint(x / (ln2_high + ln2_low));
+    return {k, (x - k * ln2_high) - k * ln2_low};
+}
+
 /// expm1 for |r| <= ln(2)/2, by its Taylor series in Horner form.
 double expm1_reduced(double r)
 {
@@ -23,20 +34,21 @@ double expm1_reduced(double r)
 
 double portable_exp(double x)
 {
-    if (!(x < 709.78))
+    if (!(x < 709.7827128933841)) // just above the logarithm of the largest double
         return x > 0 ? std::numeric_limits<double>::infinity() : x;
     if (x < -745.2)
         return 0;
-    const double k = std::nearbyint(x / (ln2_high + ln2_low));
-    const double r = (x - k * ln2_high) - k * ln2_low;
-    return std::ldexp(1.0 + expm1_reduced(r), int(k));
+    const Reduced reduced = reduce(x);
+    return std::ldexp(1.0 + expm1_reduced(reduced.r), int(reduced.k));
 }
 
 double portable_expm1(double x)
 {
-    if (std::abs(x) < 0.34)
-        return expm1_reduced(x);
-    return portable_exp(x) - 1.0;
+    if (!(std::abs(x) < 40)) // there 1 is beyond the last bit, or all there is
+        return portable_exp(x) - 1.0;
+    const Reduced reduced = reduce(x);
+    const double scale = std::ldexp(1.0, int(reduced.k));
+    return scale * expm1_reduced(reduced.r) + (scale - 1.0);
 }
 
 double portable_log(double x)

@@ -4,7 +4,7 @@ namespace slod {
 
 /// Elementary functions from +, -, *, / alone. The C library picks among variants by processor, whose
 /// last bits differ; whatever enters the state uses these, so that the state has the same bits everywhere.
-/// Relative error below 4e-16 over the whole range.
+/// Relative error below 4e-16 wherever the result is a normal number.
 double portable_exp(double x);
 double portable_expm1(double x);
 double portable_log(double x); ///< x > 0
