@@ -6,17 +6,10 @@
 
 namespace slod {
 
-Random::Random(std::uint64_t seed, std::uint32_t stream, std::uint64_t item)
-    : key_{std::uint32_t(seed), std::uint32_t(seed >> 32)}, counter_{0, stream, std::uint32_t(item),
-                                                                     std::uint32_t(item >> 32)}
-{}
-
-void Random::refill()
+std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> x, std::array<std::uint32_t, 2> key)
 {
     constexpr std::uint32_t multiplier0 = 0xD2511F53, multiplier1 = 0xCD9E8D57;
     constexpr std::uint32_t weyl0 = 0x9E3779B9, weyl1 = 0xBB67AE85;
-    auto x = counter_;
-    auto key = key_;
     for (int round = 0; round < 10; ++round) {
         const std::uint64_t product0 = std::uint64_t{multiplier0} * x[0];
         const std::uint64_t product1 = std::uint64_t{multiplier1} * x[2];
@@ -25,7 +18,23 @@ void Random::refill()
         key[0] += weyl0;
         key[1] += weyl1;
     }
-    block_ = x;
+    return x;
+}
+
+double between_0_and_1(std::uint64_t bits)
+{
+    return (double(bits >> 12) + 0.5) *
+           0x1p-52; // with one more bit the half would be rounded, at the end to 1
+}
+
+Random::Random(std::uint64_t seed, std::uint32_t stream, std::uint64_t item)
+    : key_{std::uint32_t(seed), std::uint32_t(seed >> 32)}, counter_{0, stream, std::uint32_t(item),
+                                                                     std::uint32_t(item >> 32)}
+{}
+
+void Random::refill()
+{
+    block_ = philox4x32_10(counter_, key_);
     ++counter_[0];
     used_ = 0;
 }
@@ -40,8 +49,7 @@ std::uint32_t Random::bits()
 double Random::uniform()
 {
     const std::uint64_t high = bits();
-    const std::uint64_t mantissa = (high << 21) ^ (bits() >> 11);
-    return (double(mantissa & 0x1f'ffff'ffff'ffff) + 0.5) * 0x1p-53;
+    return between_0_and_1(high << 32 | bits());
 }
 
 double Random::normal()
