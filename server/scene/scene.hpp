@@ -1,14 +1,14 @@
 #pragma once
 
-#include "cluster/particles.hpp"
-#include "scene/initial_settings.hpp"
-#include "scene/server_settings.hpp"
-#include "sim/settings.hpp"
-
 #include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "cluster/particles.hpp"
+#include "scene/initial_settings.hpp"
+#include "scene/server_settings.hpp"
+#include "sim/settings.hpp"
 
 namespace slod {
 
@@ -25,7 +25,11 @@ struct Scene {
 
 /// Reads a scene file and then the overrides, "table.key=value" with a TOML value, one each. Every problem
 /// is reported, each with file, line, key, value and remedy. Nothing else is read or changed.
-std::variant<Scene, Problems> load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+std::variant<Scene, Problems> load_scene(const std::filesystem::path& file,
+                                         const std::vector<std::string>& overrides);
+
+/// The scene as TOML, one line per key; load_scene reads it back to the same scene.
+std::string to_toml(const Scene& scene);
 
 /// Every key of a scene file with unit, default, range and meaning, as text for a terminal.
 std::string scene_reference();
@@ -36,9 +40,10 @@ struct InitialParticles {
     std::string source; ///< in words, for the log: which file, or which model and why
 };
 
-/// Reads or generates them. `input` (may be empty) names the file instead of the scene's own, which is
-/// otherwise looked up in the environment's SLOD_DATA_DIR. Never both: a file that is named but unusable
-/// is a problem, not a reason to fall back.
+/// Reads or generates them. `input` (may be empty) names the file instead of the scene's own, which unless
+/// absolute is looked up in the environment's SLOD_DATA_DIR. Only when the scene's own file is not there is
+/// its fallback generated; a file that is there or named by `input`, but unusable, is a problem. The scene
+/// must have no problems.
 std::variant<InitialParticles, Problems> load_initial(const Scene& scene, const std::filesystem::path& input);
 
 } // namespace slod

@@ -1,0 +1,84 @@
+#include "scene/scene_check.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "scene/kinds.hpp"
+#include "scene/value_text.hpp"
+
+namespace slod {
+
+namespace {
+
+bool may_start_with(const Scene& scene, InitialModel model)
+{
+    return scene.initial.model == model ||
+           (scene.initial.model == InitialModel::Gadget2 && scene.initial.fallback == model);
+}
+
+/// One component of the generated galaxy.
+struct Component {
+    std::string_view name;
+    double mass;
+    double share; ///< of the galaxy's particles
+};
+
+void check_galaxy(const Scene& scene, Problems& found)
+{
+    const GalaxySettings& galaxy = scene.galaxy;
+    const double bulge_share = galaxy.bulge_mass > 0 ? galaxy.bulge_share : 0;
+    const double halo_share = 1 - galaxy.disc_share - bulge_share;
+    const std::array<Component, 3> components{{{"disc", galaxy.disc_mass, galaxy.disc_share},
+                                               {"bulge", galaxy.bulge_mass, galaxy.bulge_share},
+                                               {"halo", galaxy.halo_mass, halo_share}}};
+    for (const auto& [name, mass, share] : components) {
+        if (mass <= 0)
+            continue;
+        const std::string key = "galaxy." + std::string(name) + "_mass";
+        if (share * double(galaxy.particles) < 1)
+            found.push_back(key + " = " + float_text(mass) + " has no particle to carry it: the " +
+                            std::string(name) + "'s share of galaxy.particles is " + float_text(share) +
+                            "; raise the share or set " + std::string(name) + "_mass to 0.");
+        if (!kind_index(scene.simulation.kinds, name))
+            found.push_back(key + " = " + float_text(mass) +
+                            " needs a kind for its particles; add a [[kind]] with "
+                            "name = \"" +
+                            std::string(name) + "\".");
+    }
+}
+
+void check_encounter(const EncounterSettings& encounter, Problems& found)
+{
+    if (encounter.separation <= 0)
+        found.push_back("encounter.separation = " + float_text(encounter.separation) +
+                        " puts the galaxies into each other; use more than 0.");
+    if (encounter.pericentre > encounter.separation)
+        found.push_back("encounter.pericentre = " + float_text(encounter.pericentre) +
+                        " is larger than encounter.separation = " + float_text(encounter.separation) +
+                        "; use at most that.");
+}
+
+} // namespace
+
+Problems problems(const Scene& scene)
+{
+    Problems found = problems(scene.simulation);
+    const bool pair = may_start_with(scene, InitialModel::GalaxyPair);
+    if (pair || may_start_with(scene, InitialModel::Galaxy))
+        check_galaxy(scene, found);
+    if (pair)
+        check_encounter(scene.encounter, found);
+    if (scene.initial.fallback == InitialModel::Gadget2)
+        found.push_back("initial.fallback = \"gadget2\" is what it would fall back from; use none, galaxy or "
+                        "galaxy_pair.");
+    // The grid's cells follow from the particles at the start; without any they follow from the breadth.
+    if (scene.initial.model == InitialModel::None && !std::isfinite(scene.simulation.background.max_breadth))
+        found.push_back(
+            "background.max_breadth = inf leaves the grid's cells without a size, as there are no "
+            "particles at the start; set it to a length.");
+    return found;
+}
+
+} // namespace slod

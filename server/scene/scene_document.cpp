@@ -1,0 +1,212 @@
+#include "scene/scene_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "scene/value_text.hpp"
+
+namespace slod {
+
+namespace {
+
+/// Starts the source of whatever an override wrote.
+constexpr std::string_view override_mark = "--set ";
+
+std::optional<std::string> file_text(const std::filesystem::path& file, Problems& found)
+{
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    std::string why;
+    std::string text;
+    if (!std::filesystem::exists(status)) {
+        why = "there is no such file; name a scene file.";
+    } else if (std::filesystem::is_directory(status)) {
+        why = "this is a folder; name a scene file in it.";
+    } else {
+        std::ifstream stream(file, std::ios::binary);
+        std::array<char, 1U << 14> chunk{};
+        while (text.size() <= max_scene_file_bytes && stream.read(chunk.data(), chunk.size()).gcount() > 0)
+            text.append(chunk.data(), std::size_t(stream.gcount()));
+        if (!stream.is_open() || stream.bad())
+            why = "the file cannot be read; check its permissions.";
+        else if (text.size() > max_scene_file_bytes)
+            why = "longer than " + std::to_string(max_scene_file_bytes) + " bytes; name a scene file.";
+    }
+    if (why.empty())
+        return text;
+    found.push_back(file.string() + ": " + why);
+    return {};
+}
+
+std::optional<toml::table> parse_file(const std::filesystem::path& file, Problems& found)
+{
+    const auto text = file_text(file, found);
+    if (!text)
+        return {};
+    try {
+        return toml::parse(*text, file.string());
+    } catch (const toml::parse_error& failure) {
+        found.push_back(file.string() + ":" + std::to_string(failure.source().begin.line) +
+                        ": not TOML: " + std::string(failure.description()) + ".");
+        return {};
+    }
+}
+
+bool is_bare_key(std::string_view key)
+{
+    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    return !key.empty() && key.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+/// An override taken apart: [table.[index.]]key = value.
+struct Override {
+    std::string origin; ///< as the user wrote it
+    std::string table, index, key, value;
+};
+
+std::optional<Override> split(const std::string& text)
+{
+    Override result{
+        .origin = std::string(override_mark) + text, .table = {}, .index = {}, .key = {}, .value = {}};
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+        return {};
+    result.value = text.substr(equals + 1);
+
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= equals;) {
+        const auto end = std::min(text.find('.', begin), equals);
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    for (const std::string& part : parts)
+        if (!is_bare_key(part))
+            return {};
+    if (parts.size() > 3)
+        return {};
+    result.key = parts.back();
+    if (parts.size() > 1)
+        result.table = parts.front();
+    if (parts.size() > 2)
+        result.index = parts[1];
+    return result;
+}
+
+/// Parses "key = value" or "table.key = value". A value that is no TOML and does not look as if it was
+/// meant to be (quotes, brackets) is a string. Throws toml::parse_error.
+toml::table parse_assignment(const std::string& key, const Override& change)
+{
+    constexpr std::string_view starts_of_toml = "\"'[{";
+    const bool one_line = change.value.find_first_of("\r\n") == std::string::npos;
+    const bool surely_toml =
+        !change.value.empty() && starts_of_toml.find(change.value[0]) != std::string_view::npos;
+    try {
+        if (one_line)
+            return toml::parse(key + " = " + change.value, change.origin);
+    } catch (const toml::parse_error&) {
+        if (surely_toml)
+            throw;
+    }
+    return toml::parse(key + " = " + string_text(change.value), change.origin);
+}
+
+/// The table that an override names; none, with a problem, when it cannot be reached.
+toml::table* table_of(toml::table& root, const Override& change, Problems& found)
+{
+    if (change.table.empty())
+        return &root;
+    toml::node* const node = root.get(change.table);
+    if (change.index.empty()) {
+        if (node->is_array())
+            found.push_back(change.origin + ": [[" + change.table + "]] is an array of tables; write " +
+                            change.table + ".0." + change.key + " for the first.");
+        else if (!node->is_table())
+            found.push_back(change.origin + ": " + change.table + " is no table; leave out ." + change.key +
+                            ".");
+        return node->as_table();
+    }
+    const std::size_t count = node != nullptr && node->is_array_of_tables() ? node->as_array()->size() : 0;
+    const bool is_number = change.index.find_first_not_of("0123456789") == std::string::npos;
+    const std::size_t index = is_number && change.index.size() < 10 ? std::stoul(change.index) : count;
+    if (index < count)
+        return node->as_array()->get(index)->as_table();
+    found.push_back(change.origin + ": there is no [[" + change.table + "]] number " + change.index +
+                    "; the scene has " + std::to_string(count) + (count > 0 ? ", counted from 0." : "."));
+    return nullptr;
+}
+
+void apply(toml::table& root, const std::string& text, Problems& found)
+{
+    const auto change = split(text);
+    if (!change) {
+        found.push_back(
+            std::string(override_mark) + text +
+            ": not understood; write table.key=value, or table.0.key=value for an array of tables.");
+        return;
+    }
+    try {
+        if (!change->table.empty() && change->index.empty() && !root.contains(change->table)) {
+            toml::table whole = parse_assignment(change->table + "." + change->key, *change);
+            root.insert_or_assign(change->table, std::move(*whole.get(change->table)->as_table()));
+            return;
+        }
+        toml::table leaf = parse_assignment(change->key, *change);
+        toml::table* const table = table_of(root, *change, found);
+        if (table != nullptr)
+            table->insert_or_assign(change->key, std::move(*leaf.get(change->key)));
+    } catch (const toml::parse_error& failure) {
+        found.push_back(change->origin + ": the value is not TOML: " + std::string(failure.description()) +
+                        ".");
+    }
+}
+
+std::string array_text(const toml::array& array)
+{
+    constexpr std::size_t longest = 8;
+    if (array.size() > longest)
+        return "an array of " + std::to_string(array.size());
+    std::vector<std::string> items;
+    for (const toml::node& item : array)
+        items.push_back(item.is_array() ? "[...]" : node_text(item));
+    return "[" + joined(items) + "]";
+}
+
+} // namespace
+
+std::string where(const toml::node& node)
+{
+    const toml::source_region& source = node.source();
+    const std::string path = source.path ? *source.path : std::string();
+    if (path.starts_with(override_mark))
+        return path;
+    return path + ":" + std::to_string(source.begin.line);
+}
+
+std::string node_text(const toml::node& node)
+{
+    if (const auto* text = node.as_string())
+        return string_text(text->get());
+    if (const auto* integer = node.as_integer())
+        return std::to_string(integer->get());
+    if (const auto* number = node.as_floating_point())
+        return float_text(number->get());
+    if (const auto* boolean = node.as_boolean())
+        return boolean->get() ? "true" : "false";
+    if (const auto* array = node.as_array())
+        return array_text(*array);
+    return node.is_table() ? "a table" : "a date or time";
+}
+
+std::optional<toml::table> read_document(const std::filesystem::path& file,
+                                         const std::vector<std::string>& overrides, Problems& found)
+{
+    auto root = parse_file(file, found);
+    if (root)
+        for (const std::string& text : overrides)
+            apply(*root, text, found);
+    return root;
+}
+
+} // namespace slod

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "scene/scene.hpp"
+
+namespace slod {
+
+/// One table of a scene file.
+struct Section {
+    std::string_view name; ///< empty for the keys before the first table
+    std::string_view help; ///< one sentence
+};
+
+/// The keys before the first table.
+struct TopLevel {
+    std::string& title;
+    std::uint64_t& seed;
+};
+
+template <class Visitor>
+void for_each_field(TopLevel& top, Visitor&& visit)
+{
+    visit(Field{"title", "", "What the scene shows, in a few words."}, top.title);
+    visit(Field{"seed", "", "Seed of every random number of the scene.", 0, 1e15}, top.seed);
+}
+
+/// Calls visit(section, settings) for each table of a scene file, in the order of the reference. `settings`
+/// is a struct with fields, a std::optional of one (an effect, active when its table is there) or a
+/// std::vector of one (a [[table]] for each element). The only list of tables.
+template <class Visitor>
+void for_each_section(Scene& scene, Visitor&& visit)
+{
+    SimulationSettings& simulation = scene.simulation;
+    TopLevel top{scene.title, simulation.seed};
+    visit(Section{"", "Before the first table."}, top);
+    visit(Section{"units", "What one unit of the scene is in SI."}, simulation.units);
+    visit(Section{"time", "The passage of time."}, simulation.time);
+    visit(Section{"kind", "The kinds of particles, at least one."}, simulation.kinds);
+    visit(Section{"motion", "How particles move with their cluster."}, simulation.motion);
+    visit(Section{"background", "Partitioning of all space that no other region of interest holds."},
+          simulation.background);
+    visit(Section{"gravity", "The particles' attraction for each other."}, simulation.gravity);
+    visit(Section{"uniform_gravity", "The same acceleration for everything."}, simulation.uniform_gravity);
+    visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);
+    visit(Section{"uniform_wind", "Moving air; needs linear_drag."}, simulation.uniform_wind);
+    visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
+    visit(Section{"initial", "The particles at the start."}, scene.initial);
+    visit(Section{"galaxy", "The generated galaxy, for the models galaxy and galaxy_pair."}, scene.galaxy);
+    visit(Section{"encounter", "The orbit of a galaxy_pair."}, scene.encounter);
+    visit(Section{"server", "How the server runs the scene; the outcome does not depend on it."},
+          scene.server);
+    visit(Section{"wire", "What is published over DDS."}, scene.wire);
+}
+
+} // namespace slod
