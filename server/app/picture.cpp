@@ -141,8 +141,8 @@ Canvas draw_picture(const ParticleSet& particles, const Plane& plane, const Pict
     canvas.text(Layout::map_left, 28, caption.scene, ink, Font::Large);
     canvas.text(Layout::map_left, 50,
                 fmt::format("t = {}, {} particles in {} clusters",
-                            duration_text(caption.time * caption.units.time_s), particles.size(),
-                            caption.clusters),
+                            duration_text(caption.time * caption.units.time_s), grouped(particles.size()),
+                            grouped(caption.clusters)),
                 faint_ink, Font::Medium);
     draw_map(canvas, map, scale);
     draw_axes(canvas, map.square, plane, caption.units);

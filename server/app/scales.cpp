@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -79,6 +80,14 @@ std::string duration_text(double seconds)
         if (std::abs(seconds) >= unit.si)
             best = &unit;
     return fmt::format("{:.4g} {}", seconds / best->si, best->name);
+}
+
+std::string grouped(std::uint64_t number)
+{
+    std::string digits = std::to_string(number);
+    for (auto place = std::ptrdiff_t(digits.size()) - 3; place > 0; place -= 3)
+        digits.insert(std::size_t(place), 1, ',');
+    return digits;
 }
 
 } // namespace slod

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,8 @@ std::string mass_unit(const Units& units);
 
 /// A span of time in the largest fitting of s, h, d, yr, kyr, Myr and Gyr: "117 Myr".
 std::string duration_text(double seconds);
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t number);
 
 } // namespace slod

@@ -13,15 +13,6 @@ namespace {
 
 constexpr int seconds_between_log_lines = 5;
 
-/// 1234567 as 1,234,567.
-std::string grouped(std::uint64_t number)
-{
-    std::string digits = std::to_string(number);
-    for (auto place = std::ptrdiff_t(digits.size()) - 3; place > 0; place -= 3)
-        digits.insert(std::size_t(place), 1, ',');
-    return digits;
-}
-
 /// Every planned phase as ` name<separator>milliseconds`.
 std::string phase_times(const StepProfile& profile, const Plan& plan, char separator)
 {
