@@ -1,0 +1,205 @@
+#include "e2e/wire_support.hpp"
+
+#include <chrono>
+#include <signal.h>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/connection.hpp"
+#include "ctl/command_line.hpp"
+
+// The real slodctl, and the clients' library, against a server process without a simulation.
+namespace slod {
+namespace {
+
+using namespace std::chrono_literals;
+using client::Connection;
+using client::Contact;
+using ctl::ExitCode;
+using nlohmann::json;
+using test::Child;
+using test::eventually;
+
+class WireSlodctl : public testing::Test {
+protected:
+    /// A source of `frames` frames (0: for ever) of 100 clusters.
+    std::vector<std::string> source(const std::string& frames) const
+    {
+        return {WIRE_SOURCE, domain.text(), "100", frames};
+    }
+
+    /// slodctl with these arguments on this test's domain; patient, since the machine may be busy.
+    std::vector<std::string> slodctl(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.begin(), SLODCTL);
+        arguments.insert(arguments.end(), {"--domain", domain.text()});
+        return arguments;
+    }
+
+    Connection connect() const { return Connection(domain.number(), wire::Profile::Loopback, {}); }
+
+    static bool reaches(Connection& connection, Contact contact)
+    {
+        return eventually([&] {
+            connection.wait(std::stop_token(), 50ms);
+            return connection.status().contact == contact;
+        });
+    }
+
+    test::FreeDomain domain;
+};
+
+std::vector<json> objects(const std::string& lines)
+{
+    std::vector<json> parsed;
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);)
+        parsed.push_back(json::parse(line));
+    return parsed;
+}
+
+TEST_F(WireSlodctl, StatusSaysWhichServerThereIs)
+{
+    const Child server(source("0"));
+    Child status(slodctl({"status", "--json", "--timeout", "30"}));
+    ASSERT_EQ(status.wait(), int(ExitCode::Success)) << status.errors();
+    const std::vector<json> answers = objects(status.output());
+    ASSERT_EQ(answers.size(), 1U);
+    EXPECT_EQ(answers[0]["contact"], "live");
+    EXPECT_EQ(answers[0]["scene_title"], "made up");
+    EXPECT_EQ(answers[0]["version"], "0.0.1");
+}
+
+TEST_F(WireSlodctl, StatsPrintsOneFramesNumbers)
+{
+    const Child server(source("0"));
+    Child stats(slodctl({"stats", "--json", "--timeout", "30"}));
+    ASSERT_EQ(stats.wait(), int(ExitCode::Success)) << stats.errors();
+    const json answer = objects(stats.output()).at(0);
+    EXPECT_EQ(answer["clusters"], 100);
+    EXPECT_EQ(answer["counts"]["interactions"], 12'345'678'901);
+    EXPECT_EQ(answer["phases_ms"]["forces"], 4.5);
+    EXPECT_TRUE(answer["conserved"]["potential_energy"].is_null());
+}
+
+TEST_F(WireSlodctl, StatsPrintsTheValuesThatAreNamed)
+{
+    const Child server(source("0"));
+    Child stats(slodctl({"stats", "phases_ms.forces", "clusters", "--timeout", "30"}));
+    ASSERT_EQ(stats.wait(), int(ExitCode::Success)) << stats.errors();
+    EXPECT_EQ(stats.output(), "phases_ms.forces  4.5\nclusters          100\n");
+}
+
+TEST_F(WireSlodctl, AnUnknownNameIsNotFound)
+{
+    const Child server(source("0"));
+    Child stats(slodctl({"stats", "phases_ms.lunch", "--timeout", "30"}));
+    EXPECT_EQ(stats.wait(), int(ExitCode::NotFound));
+    EXPECT_EQ(stats.output(), "");
+    EXPECT_NE(stats.errors().find("phases_ms.lunch"), std::string::npos);
+}
+
+TEST_F(WireSlodctl, WatchPrintsOneLineForEachUpdate)
+{
+    const Child server(source("0"));
+    Child watch(slodctl({"watch", "--count", "2", "--clusters", "--json", "--timeout", "30"}));
+    ASSERT_EQ(watch.wait(), int(ExitCode::Success)) << watch.errors();
+    const std::vector<json> updates = objects(watch.output());
+    ASSERT_EQ(updates.size(), 2U);
+    EXPECT_GT(updates[1]["frame"], updates[0]["frame"]);
+    EXPECT_GT(updates[1]["receive"]["received"], 0);
+}
+
+TEST_F(WireSlodctl, WatchEndsCleanlyOnCtrlC)
+{
+    const Child server(source("0"));
+    Child watch(slodctl({"watch", "--timeout", "30"}));
+    ASSERT_TRUE(eventually([&] { return !watch.output().empty(); }));
+    watch.signal(SIGINT);
+    EXPECT_EQ(watch.wait(), int(ExitCode::Success));
+    EXPECT_EQ(watch.errors(), "");
+    EXPECT_EQ(watch.output().back(), '\n');
+}
+
+TEST_F(WireSlodctl, WithoutAServerEveryCommandSaysSo)
+{
+    for (const char* command : {"status", "watch", "stats"}) {
+        Child child(slodctl({command, "--timeout", "0.2"}));
+        EXPECT_EQ(child.wait(), int(ExitCode::NoServer)) << command;
+        EXPECT_EQ(child.output(), "") << command;
+        EXPECT_NE(child.errors().find("start slod-server"), std::string::npos) << command;
+    }
+}
+
+TEST_F(WireSlodctl, AServerThatCompletesNoFrameMakesStatsTimeOut)
+{
+    const Child server(source("1"));
+    Connection connection = connect();
+    ASSERT_TRUE(reaches(connection, Contact::Stalled));
+    Child stats(slodctl({"stats", "--timeout", "3"}));
+    EXPECT_EQ(stats.wait(), int(ExitCode::TimedOut));
+    EXPECT_EQ(stats.output(), "");
+}
+
+TEST_F(WireSlodctl, AWrongCommandLineIsToldFromAWrongValue)
+{
+    EXPECT_EQ(Child({SLODCTL}).wait(), int(ExitCode::Usage));
+    EXPECT_EQ(Child(slodctl({"lunch"})).wait(), int(ExitCode::Usage));
+    EXPECT_EQ(Child(slodctl({"status", "--lunch"})).wait(), int(ExitCode::Usage));
+    EXPECT_EQ(Child({SLODCTL, "status", "--domain", "999"}).wait(), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(Child(slodctl({"status", "--profile", "moon"})).wait(), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(Child(slodctl({"watch", "--count", "0"})).wait(), int(ExitCode::InvalidArgument));
+}
+
+TEST_F(WireSlodctl, HelpAndVersionAreNotErrors)
+{
+    Child help({SLODCTL, "--help"});
+    EXPECT_EQ(help.wait(), int(ExitCode::Success));
+    for (const char* word :
+         {"status", "watch", "stats", "--json", "--timeout", "--domain", "--profile", "69"})
+        EXPECT_NE(help.output().find(word), std::string::npos) << word;
+    EXPECT_EQ(Child({SLODCTL, "--version"}).wait(), int(ExitCode::Success));
+}
+
+TEST_F(WireSlodctl, AStalledServerIsToldFromADeadOne)
+{
+    Child server(source("5"));
+    Connection connection = connect();
+    ASSERT_TRUE(reaches(connection, Contact::Live));
+    ASSERT_TRUE(reaches(connection, Contact::Stalled));
+    EXPECT_EQ(connection.server()->frame, 5U);
+    server.signal(SIGKILL);
+    ASSERT_TRUE(reaches(connection, Contact::NoServer));
+    EXPECT_NE(connection.status().reason.find("silent"), std::string::npos) << connection.status().reason;
+}
+
+TEST_F(WireSlodctl, AServerThatIsStoppedTakesLeave)
+{
+    Child server(source("0"));
+    Connection connection = connect();
+    ASSERT_TRUE(reaches(connection, Contact::Live));
+    server.signal(SIGTERM);
+    ASSERT_TRUE(reaches(connection, Contact::NoServer));
+    EXPECT_NE(connection.status().reason.find("stopped"), std::string::npos) << connection.status().reason;
+    EXPECT_EQ(server.wait(), 0);
+}
+
+TEST_F(WireSlodctl, ARestartedServerIsFoundAgain)
+{
+    Child first(source("0"));
+    Connection connection = connect();
+    ASSERT_TRUE(reaches(connection, Contact::Live));
+    const wire::Uuid before = connection.server()->session;
+    first.signal(SIGKILL);
+    ASSERT_TRUE(reaches(connection, Contact::NoServer));
+    const Child second(source("0"));
+    ASSERT_TRUE(reaches(connection, Contact::Live));
+    EXPECT_NE(connection.server()->session, before);
+}
+
+} // namespace
+} // namespace slod
