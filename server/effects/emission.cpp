@@ -68,9 +68,10 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     const std::uint16_t region = tree.region_at(grouping_.particles.front().position);
     const std::uint32_t most = tree.subtrees[region].max_cluster_size();
     const std::uint32_t parts = clusters_for(count, most);
-    grouping_.groups.push_back({{region, {}}, 0, count, parts, 0});
     const bool open = parts == 1 && count < most;
-    form_groups(grouping_, open ? double(most) / count - 1 : 0.0, context);
+    grouping_.groups.push_back(
+        {.pool = {region, {}}, .count = count, .clusters = parts, .spare_rows = open ? most - count : 0});
+    form_groups(grouping_, context);
     for (const ClusterSlot slot : grouping_.slots) {
         const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
         link(tree.of(pool), clusters, pool.pool, slot);

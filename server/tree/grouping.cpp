@@ -1,7 +1,6 @@
 #include "tree/grouping.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/assert.hpp"
 #include "core/parallel.hpp"
@@ -17,14 +16,14 @@ std::uint32_t largest_part(const Group& group)
 }
 
 /// Gives every cluster to be a slot and a slab, in the order of the groups.
-void take_slots(Grouping& grouping, double spare, ClusterStore& store)
+void take_slots(Grouping& grouping, ClusterStore& store)
 {
     grouping.slots.clear();
     for (Group& group : grouping.groups) {
         group.first_slot = std::uint32_t(grouping.slots.size());
         if (group.clusters == 0)
             continue;
-        const auto rows = std::uint32_t(std::ceil(largest_part(group) * (1 + spare)));
+        const std::uint32_t rows = largest_part(group) + group.spare_rows;
         for (std::uint32_t part = 0; part < group.clusters; ++part) {
             const ClusterSlot slot = store.clusters.take_slot();
             store.clusters.slab[slot.index] = store.members.allocate(rows);
@@ -100,11 +99,11 @@ void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> s
     grouping.resize(total);
 }
 
-void form_groups(Grouping& grouping, double spare, const UpdateContext& context)
+void form_groups(Grouping& grouping, const UpdateContext& context)
 {
     grouping.keys.resize(grouping.order.size());
     grouping.ordered.resize(grouping.order.size());
-    take_slots(grouping, spare, context.store);
+    take_slots(grouping, context.store);
     for_each_block(grouping.groups.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t group = begin; group < end; ++group)
             form_group(grouping, grouping.groups[group], context);

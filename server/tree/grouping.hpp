@@ -20,6 +20,7 @@ struct Grouping {
         std::uint32_t first = 0; ///< in `order`
         std::uint32_t count = 0;
         std::uint32_t clusters = 0;   ///< into which they are divided
+        std::uint32_t spare_rows = 0; ///< kept free in each cluster's slab for members to come
         std::uint32_t first_slot = 0; ///< in `slots`
     };
 
@@ -44,17 +45,17 @@ struct Grouping {
 void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
               const UpdateContext& context);
 
-/// Divides each group into its number of clusters (0: none) and forms them. `spare` is the share of a
-/// slab's rows that is kept free for members to come.
-void form_groups(Grouping& grouping, double spare, const UpdateContext& context);
+/// Divides each group into its number of clusters (0: none) and forms them.
+void form_groups(Grouping& grouping, const UpdateContext& context);
 
 /// Adds the clusters just formed to their groups' pools.
 void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters);
 
-/// Clusters that `count` particles are divided into.
-constexpr std::uint32_t clusters_for(std::uint32_t count, std::uint32_t max_cluster_size)
+/// Clusters of at most ceil(size) particles that `count` particles are divided into.
+constexpr std::uint32_t clusters_for(std::uint32_t count, double size)
 {
-    return (count + max_cluster_size - 1) / max_cluster_size;
+    const auto whole = std::uint32_t(count / size);
+    return whole * size < count ? whole + 1 : whole;
 }
 
 } // namespace slod

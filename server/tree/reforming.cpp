@@ -9,9 +9,9 @@
 namespace slod {
 namespace {
 
-constexpr double crowded = 1.4; ///< of the pool limit: the leaf is divided
-constexpr double sparse = 0.7;  ///< of the pool limit: two sibling leaves are merged
-constexpr double spare = 0.25; ///< share of a slab kept free for strays, and of a cluster's size they may add
+constexpr double sparse = 0.5; ///< of the pool limit: two sibling leaves are merged
+constexpr double filled =
+    0.8; ///< of the maximum cluster size: clusters are formed so large, strays fill the rest
 
 } // namespace
 
@@ -193,7 +193,8 @@ void Reforming::gather_groups(const SlodTree& tree)
             std::uint32_t& arriving = arrivals_[pool_base_[subtree.region] + index];
             const std::uint32_t count = arriving;
             if (count > 0)
-                grouping_.groups.push_back({{subtree.region, {index}}, first, count, 0, 0});
+                grouping_.groups.push_back(
+                    {.pool = {subtree.region, {index}}, .first = first, .count = count});
             arriving = first;
             first += count;
         }
@@ -214,7 +215,7 @@ void Reforming::expand_crowded(SlodTree& tree)
 void Reforming::expand_group(SlodTree& tree, std::size_t index)
 {
     const Subtree& subtree = tree.of(grouping_.groups[index].pool);
-    const double limit = crowded * subtree.pool_limit();
+    const std::uint32_t limit = subtree.pool_limit();
     for (;;) {
         Grouping::Group& group = grouping_.groups[index];
         if (group.count <= limit || !can_expand(subtree, group.pool.pool))
@@ -238,7 +239,7 @@ void Reforming::expand_group(SlodTree& tree, std::size_t index)
         const PoolId right =
             expand(tree.of(group.pool), context_.store.clusters, group.pool.pool, axis, position);
         const Grouping::Group other{
-            {group.pool.region, right}, group.first + lower, group.count - lower, 0, 0};
+            .pool = {group.pool.region, right}, .first = group.first + lower, .count = group.count - lower};
         group.count = lower;
         grouping_.groups.push_back(other);
     }
@@ -267,7 +268,7 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
 {
     ClusterTable& clusters = context_.store.clusters;
     Pool& pool = tree.pool(group.pool);
-    const double size_limit = (1 + spare) * tree.of(group.pool).max_cluster_size();
+    const std::uint32_t most = tree.of(group.pool).max_cluster_size();
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < group.count; ++i) {
         const std::uint32_t index = grouping_.order[group.first + i];
@@ -282,7 +283,7 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
             }
         }
         const bool fits = nearest.valid() && nearest_squared <= 4 * clusters.variance[nearest.index] &&
-                          clusters.count[nearest.index] + 1 <= size_limit &&
+                          clusters.count[nearest.index] < most &&
                           clusters.stored[nearest.index] < clusters.slab[nearest.index].capacity;
         if (fits) {
             insert_member(context_.store, nearest, stray, context_.frame);
@@ -298,9 +299,12 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
 
 void Reforming::form(SlodTree& tree)
 {
-    for (Grouping::Group& group : grouping_.groups)
-        group.clusters = clusters_for(group.count, tree.of(group.pool).max_cluster_size());
-    form_groups(grouping_, spare, context_);
+    for (Grouping::Group& group : grouping_.groups) {
+        const std::uint32_t size = tree.of(group.pool).max_cluster_size();
+        group.clusters = clusters_for(group.count, filled * size);
+        group.spare_rows = size - std::uint32_t(filled * size);
+    }
+    form_groups(grouping_, context_);
     link_groups(tree, grouping_, context_.store.clusters);
 }
 

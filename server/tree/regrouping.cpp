@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t block = 1024;           ///< clusters planned by one task
 constexpr std::uint64_t revision_period = 8;  ///< frames between revisions of the k-d trees
 constexpr std::uint64_t merge_period = 16;    ///< every pool looks for merges once in so many frames
-constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit, as in re-forming
+constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit; apart, as clusters come and go
 
 } // namespace
 
@@ -99,7 +99,8 @@ void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
         const PoolRef pool{clusters.region[slot.index], clusters.pool[slot.index]};
         const std::uint32_t count = clusters.count[slot.index];
         const std::uint32_t parts = clusters_for(count, tree.of(pool).max_cluster_size());
-        grouping_.groups.push_back({pool, first, count, std::max(parts, 2U), 0});
+        grouping_.groups.push_back(
+            {.pool = pool, .first = first, .count = count, .clusters = std::max(parts, 2U)});
         first += count;
     }
     form_from(tree, splitting_);
@@ -115,7 +116,7 @@ void Regrouping::form_from(SlodTree& tree, std::span<const ClusterSlot> ended)
     for (std::size_t i = 0; i < grouping_.particles.size(); ++i)
         grouping_.place[i] = grouping_.particles[i].position;
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
-    form_groups(grouping_, 0, context_);
+    form_groups(grouping_, context_);
     for (const ClusterSlot slot : grouping_.slots) {
         const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
         link(tree.of(pool), clusters, pool.pool, slot);
@@ -144,7 +145,10 @@ void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
                     continue;
                 merging_pairs_.insert(merging_pairs_.end(), {a, b});
                 const std::uint32_t count = clusters.count[a.index] + clusters.count[b.index];
-                grouping_.groups.push_back({{subtree.region, clusters.pool[a.index]}, first, count, 1, 0});
+                grouping_.groups.push_back({.pool = {subtree.region, clusters.pool[a.index]},
+                                            .first = first,
+                                            .count = count,
+                                            .clusters = 1});
                 first += count;
             }
         }

@@ -59,8 +59,7 @@ struct Subtree {
     std::vector<PoolId> free_pools;
 
     std::uint32_t max_cluster_size() const { return std::uint32_t(settings.max_cluster_size); }
-    std::uint32_t
-    pool_limit() const; ///< members of a pool: a goal; expanded above 1.4, pruned below 0.7 of it
+    std::uint32_t pool_limit() const; ///< members of a pool, at most: a goal
     std::size_t pool_count() const { return pools.size() - free_pools.size(); }
 };
 
