@@ -10,8 +10,8 @@ namespace slod {
 namespace {
 
 constexpr double sparse = 0.5; ///< of the pool limit: two sibling leaves are merged
-constexpr double filled =
-    0.8; ///< of the maximum cluster size: clusters are formed so large, strays fill the rest
+/// Share of the maximum size that clusters are formed at; strays fill the rest.
+constexpr double filled = 0.75;
 
 } // namespace
 
