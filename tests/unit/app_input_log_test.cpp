@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,6 +24,12 @@ protected:
             return {};
         }
         return std::get<InputLog>(log);
+    }
+
+    std::string content() const
+    {
+        std::ifstream stream(file_);
+        return {std::istreambuf_iterator<char>(stream), {}};
     }
 
     /// What reading says is wrong, in one string.
@@ -97,10 +105,17 @@ TEST_F(InputLogTest, NothingMayFollowTheEnd)
     EXPECT_EQ(problem().find(file_.string() + ":3: "), 0U) << problem();
 }
 
+// The last two differ from a log only in the name or the version of their format.
 TEST_F(InputLogTest, AnotherKindOfFileIsNoLog)
 {
-    std::filesystem::create_directories(folder_);
-    for (const char* text : {"", "title = \"a scene\"\n", "{\"format\":\"other\"}\n"}) {
+    InputLogWriter(folder_, header_).finish({.frames = 1, .state_hash = 1});
+    const std::string log = content();
+    const auto replaced = [&](const std::string& part, const std::string& by) {
+        return std::string(log).replace(log.find(part), part.size(), by);
+    };
+    for (const std::string& text :
+         {std::string(), std::string("title = \"a scene\"\n"), replaced("slod-input-log", "another-log"),
+          replaced("\"format_version\":1", "\"format_version\":2")}) {
         std::ofstream(file_) << text;
         EXPECT_NE(problem(), "") << text;
     }
