@@ -24,7 +24,7 @@ struct ClusterTable {
         bool map = false;  ///< full flow maps
         bool tide = false; ///< tidal tensors
         bool acceleration = false;
-        bool counting_moments = false; ///< when masses differ, so that breadth counts particles
+        bool counting_moments = false; ///< when masses differ or are all 0, so that breadth counts particles
         bool expiry = false;
     };
 

@@ -9,6 +9,9 @@
 namespace slod {
 namespace {
 
+/// A map that has shrunk further takes no members: its inverse magnifies the rounding of a stored offset.
+constexpr double least_decay = 1.0 / 16;
+
 /// Mean position and velocity of particles, by mass, or by number when all are massless.
 struct Centre {
     Vector3d position{0, 0, 0}, velocity{0, 0, 0};
@@ -59,23 +62,25 @@ void write_row(const Rows& rows, std::uint32_t row, const Particle& particle, co
         rows.expiry[row] = particle.expiry_frame;
 }
 
-/// Weight of a member in the sums that define the cluster's centre: of mass, or of number when massless.
-void add_to_moments(ClusterStore& store, std::size_t slot, double mass, double number,
-                    const FormedOffset& offset)
+void add_to_moments(ClusterStore& store, std::size_t slot, double mass, const FormedOffset& offset)
 {
     const Vector3d o = offset.position.cast<double>();
     const Vector3d w = offset.velocity.cast<double>();
     store.clusters.moments[slot].add(mass, o, w);
     if (store.clusters.columns.counting_moments)
-        store.clusters.counting[slot].add(number, o, w);
+        store.clusters.counting[slot].add(1, o, w);
 }
 
-/// The means that the map is applied about: of mass, or of number for a massless cluster.
+/// The moments whose means the map is applied about: of mass, or of number for a massless cluster.
+const Moments& centring_moments(const ClusterTable& clusters, std::size_t slot)
+{
+    return clusters.mass(slot) > 0 ? clusters.moments[slot] : clusters.counting_moments(slot);
+}
+
 MapBlocks::Offset means(const ClusterTable& clusters, std::size_t slot)
 {
-    const Moments& mass = clusters.moments[slot];
-    const Moments& weights = mass.weight > 0 ? mass : clusters.counting_moments(slot);
-    return {weights.mean_offset(), weights.mean_velocity()};
+    const Moments& moments = centring_moments(clusters, slot);
+    return {moments.mean_offset(), moments.mean_velocity()};
 }
 
 MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offset& mean)
@@ -83,11 +88,38 @@ MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offse
     return {offset.position.cast<double>() - mean.position, offset.velocity.cast<double>() - mean.velocity};
 }
 
-/// The member's share of the weight that the centre is the mean of, once it has joined.
-double share(const ClusterTable& clusters, std::size_t slot, double mass)
+/// Adds to the centre what moves the members' mean, so that no member moves: it is at X + M (o - mean).
+void follow_mean(ClusterTable& clusters, std::size_t slot, const MapBlocks& map,
+                 const MapBlocks::Offset& before)
 {
-    const double total = clusters.mass(slot);
-    return total > 0 ? mass / total : 1.0 / double(clusters.count[slot]);
+    const MapBlocks::Offset after = means(clusters, slot);
+    const MapBlocks::Offset shift =
+        map.forward({after.position - before.position, after.velocity - before.velocity});
+    clusters.position[slot] += shift.position;
+    clusters.velocity[slot] += shift.velocity;
+}
+
+/// Sums up the live members' moments and softening.
+void sum_up(ClusterStore& store, std::size_t slot, std::uint64_t frame)
+{
+    ClusterTable& clusters = store.clusters;
+    const Rows rows = rows_of(store.members, clusters.slab[slot]);
+    const auto softening = [&](std::uint32_t row) {
+        return store.kind_softening_squared[rows.kind != nullptr ? rows.kind[row] : 0];
+    };
+    clusters.moments[slot] = {};
+    if (clusters.columns.counting_moments)
+        clusters.counting[slot] = {};
+    double softening_sum = 0;
+    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row) {
+        if (rows.expiry != nullptr && rows.expiry[row] <= frame)
+            continue;
+        const double mass = double(rows.mass != nullptr ? rows.mass[row] : store.uniform_mass);
+        add_to_moments(store, slot, mass, rows.offset[row]);
+        softening_sum += mass * softening(row);
+    }
+    const double mass = clusters.mass(slot);
+    clusters.softening_squared[slot] = float(mass > 0 ? softening_sum / mass : softening(0));
 }
 
 void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, std::uint64_t frame)
@@ -105,8 +137,10 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
     }
     if (clusters.columns.counting_moments)
         clusters.counting[slot] = {};
-    if (clusters.columns.acceleration)
+    if (clusters.columns.acceleration) {
         clusters.acceleration[slot].setZero();
+        clusters.variance[slot] = 0;
+    }
     if (clusters.columns.tide)
         clusters.tide[slot] = {};
 }
@@ -126,21 +160,16 @@ void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> 
     const Centre centre = centre_of(particles);
     start_columns(store, slot, centre, frame);
     const Rows rows = rows_of(store.members, clusters.slab[slot]);
-    double softening_sum = 0;
     std::uint32_t row = 0;
     for (const Particle& particle : particles) {
         const FormedOffset offset{(particle.position - centre.position).cast<float>(),
                                   (particle.velocity - centre.velocity).cast<float>()};
         write_row(rows, row++, particle, offset);
-        add_to_moments(store, slot, double(particle.mass), 1, offset);
         clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
         clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
-        softening_sum += double(particle.mass) * store.kind_softening_squared[particle.kind];
     }
     clusters.stored[slot] = clusters.count[slot] = row;
-    const double mass = clusters.mass(slot);
-    clusters.softening_squared[slot] =
-        float(mass > 0 ? softening_sum / mass : store.kind_softening_squared[particles.front().kind]);
+    sum_up(store, slot, frame);
     if (clusters.columns.expiry)
         clusters.next_expiry[slot] = particles.front().expiry_frame;
 }
@@ -174,11 +203,19 @@ void map_out(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame
     SLOD_ASSERT(particle == out.end());
 }
 
+bool takes_members(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame)
+{
+    const ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    return clusters.stored[slot] < clusters.slab[slot].capacity &&
+           clusters.blocks(slot, store.rule, frame).decay >= least_decay;
+}
+
 void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& particle, std::uint64_t frame)
 {
     ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
-    SLOD_ASSERT(clusters.count[slot] > 0 && clusters.stored[slot] < clusters.slab[slot].capacity);
+    SLOD_ASSERT(clusters.count[slot] > 0 && takes_members(store, cluster, frame));
     const MapBlocks map = clusters.blocks(slot, store.rule, frame);
     const MapBlocks::Offset mean = means(clusters, slot);
     const Vector3d away = particle.position - clusters.position[slot];
@@ -188,18 +225,20 @@ void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& par
                               (formed.velocity + mean.velocity).cast<float>()};
     write_row(rows_of(store.members, clusters.slab[slot]), clusters.stored[slot]++, particle, offset);
 
-    const double old_mass = clusters.mass(slot);
-    add_to_moments(store, slot, double(particle.mass), 1, offset);
+    const double mass = double(particle.mass);
+    add_to_moments(store, slot, mass, offset);
     ++clusters.count[slot];
-    const double weight = share(clusters, slot, double(particle.mass));
-    clusters.position[slot] += weight * away;
-    clusters.velocity[slot] += weight * rush;
+    // Not by follow_mean: the particle's momentum is added as it is, not as its offset rounds it.
+    const double all = centring_moments(clusters, slot).weight;
+    const double share = all > 0 ? (clusters.mass(slot) > 0 ? mass : 1.0) / all : 0.0;
+    clusters.position[slot] += share * away;
+    clusters.velocity[slot] += share * rush;
     clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
     clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
     if (clusters.mass(slot) > 0) {
-        const double sum = double(clusters.softening_squared[slot]) * old_mass +
-                           store.kind_softening_squared[particle.kind] * double(particle.mass);
-        clusters.softening_squared[slot] = float(sum / clusters.mass(slot));
+        const double softening = double(clusters.softening_squared[slot]);
+        const double step = store.kind_softening_squared[particle.kind] - softening;
+        clusters.softening_squared[slot] = float(softening + mass / clusters.mass(slot) * step);
     }
     if (clusters.columns.expiry)
         clusters.next_expiry[slot] = std::min(clusters.next_expiry[slot], particle.expiry_frame);
@@ -209,31 +248,21 @@ std::uint32_t remove_expired(ClusterStore& store, ClusterSlot cluster, std::uint
 {
     ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
-    const Slab& slab = clusters.slab[slot];
-    const std::uint32_t* expiries = store.members.expiries(slab);
-    const FormedOffset* offsets = store.members.offsets(slab);
-    const float* masses = store.members.masses(slab);
-    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    const Rows rows = rows_of(store.members, clusters.slab[slot]);
+    const MapBlocks::Offset mean = means(clusters, slot);
     const std::uint32_t due = clusters.next_expiry[slot];
     std::uint32_t died = 0;
     clusters.next_expiry[slot] = Particle::never;
     for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row) {
-        if (expiries[row] > frame) {
-            clusters.next_expiry[slot] = std::min(clusters.next_expiry[slot], expiries[row]);
-            continue;
-        }
-        if (expiries[row] < due)
-            continue; // died in an earlier frame
-        ++died;
-        if (--clusters.count[slot] == 0)
-            break;
-        // The centre moves away from the member by its share of what remains.
-        const double mass = double(masses != nullptr ? masses[row] : store.uniform_mass);
-        const MapBlocks::Offset now = map.forward(relative_to(offsets[row], means(clusters, slot)));
-        add_to_moments(store, slot, -mass, -1, offsets[row]);
-        const double weight = share(clusters, slot, mass);
-        clusters.position[slot] -= weight * now.position;
-        clusters.velocity[slot] -= weight * now.velocity;
+        if (rows.expiry[row] > frame)
+            clusters.next_expiry[slot] = std::min(clusters.next_expiry[slot], rows.expiry[row]);
+        else if (rows.expiry[row] >= due) // else it died in an earlier frame
+            ++died;
+    }
+    clusters.count[slot] -= died;
+    if (died > 0 && clusters.count[slot] > 0) {
+        sum_up(store, slot, frame);
+        follow_mean(clusters, slot, clusters.blocks(slot, store.rule, frame), mean);
     }
     return died;
 }

@@ -35,7 +35,11 @@ void form_cluster(ClusterStore& store, ClusterSlot slot, std::span<Particle> par
 /// them. Order as stored.
 void map_out(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, std::span<Particle> out);
 
-/// Adds a particle through the inverse map. The slab must have a free row.
+/// Whether a particle may join: the slab has a free row, and drag has not shrunk the map so far that its
+/// inverse would magnify the rounding of an offset more than 16 times.
+bool takes_members(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
+
+/// Adds a particle through the inverse map. The cluster must take members.
 void insert_member(ClusterStore& store, ClusterSlot slot, const Particle& particle, std::uint64_t frame);
 
 /// Takes away the members whose time has come at the end of frame `frame`; returns how many. The cluster

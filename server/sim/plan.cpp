@@ -23,6 +23,7 @@ void decide_masses(Plan& plan, const SimulationSettings& settings, const Particl
         note(float(emitter.particle_mass));
     plan.several_masses = masses.size() > 1;
     plan.uniform_mass = masses.empty() ? 0 : masses.front();
+    plan.counting_moments = plan.several_masses || !(plan.uniform_mass > 0);
 }
 
 void decide_map(Plan& plan, const SimulationSettings& settings)
@@ -78,7 +79,7 @@ void list_columns(Plan& plan, const SimulationSettings& settings)
             plan.cluster_columns.push_back({name, bytes});
     };
     cluster(plan.map == MapKind::Full, "flow map and closure", sizeof(FlowMap) + sizeof(double));
-    cluster(plan.several_masses, "moments by number", sizeof(Moments));
+    cluster(plan.counting_moments, "moments by number", sizeof(Moments));
     cluster(plan.finite_lives, "next expiry", 4);
     cluster(settings.gravity.has_value(), "acceleration and variance", sizeof(Vector3d) + sizeof(double));
     cluster(plan.clocked, "tidal tensor", sizeof(Symmetric3));

@@ -36,7 +36,8 @@ struct Plan {
     bool finite_lives = false; ///< particles expire
     bool several_kinds = false;
     bool several_masses = false;
-    float uniform_mass = 0; ///< of every particle, unless several_masses
+    bool counting_moments = false; ///< masses differ or are all 0: clusters are also weighed by number
+    float uniform_mass = 0;        ///< of every particle, unless several_masses
     std::array<bool, phase_count> runs{};
     std::vector<PlannedEffect> effects;
     std::vector<PlannedColumn> member_columns;

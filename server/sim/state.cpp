@@ -22,7 +22,7 @@ ClusterTable::Columns cluster_columns(const Plan& plan, const SimulationSettings
     return {.map = plan.map == MapKind::Full,
             .tide = plan.clocked,
             .acceleration = settings.gravity.has_value(),
-            .counting_moments = plan.several_masses,
+            .counting_moments = plan.counting_moments,
             .expiry = plan.finite_lives};
 }
 
