@@ -301,8 +301,9 @@ void Reforming::form(SlodTree& tree)
 {
     for (Grouping::Group& group : grouping_.groups) {
         const std::uint32_t size = tree.of(group.pool).max_cluster_size();
-        group.clusters = clusters_for(group.count, filled * size);
-        group.spare_rows = size - std::uint32_t(filled * size);
+        const double goal = std::max(filled * size, 1.0);
+        group.clusters = clusters_for(group.count, goal);
+        group.spare_rows = size - std::uint32_t(goal);
     }
     form_groups(grouping_, context_);
     link_groups(tree, grouping_, context_.store.clusters);
