@@ -69,7 +69,8 @@ double breadth(const Symmetric3& second_moments, double weight)
     if (!(weight > 0))
         return 0;
     Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
-    solver.computeDirect(second_moments.matrix() / weight, Eigen::EigenvaluesOnly);
+    // Not computeDirect(): its sines differ in the last bit from processor to processor.
+    solver.compute(second_moments.matrix() / weight, Eigen::EigenvaluesOnly);
     return 2 * std::sqrt(5 * std::max(solver.eigenvalues()(2), 0.0));
 }
 

@@ -16,7 +16,7 @@ struct Moments {
     Symmetric3 ww;                  ///< W: sum of weight w w^T
     Matrix3d ow = Matrix3d::Zero(); ///< S: sum of weight o w^T
 
-    /// Adds a member; a negative weight takes it away again.
+    /// Adds a member.
     void add(double member_weight, const Vector3d& offset, const Vector3d& velocity);
 
     Vector3d mean_offset() const { return weight > 0 ? Vector3d(o / weight) : Vector3d(0, 0, 0); }

@@ -9,18 +9,34 @@
 namespace slod {
 namespace {
 
+/// A cluster as its particles' number and places have it, all weighing the same.
+struct Crowd {
+    double number;
+    Vector3d centre;
+    Matrix3d moments;
+};
+
+Crowd crowd(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
+{
+    const ClusterTable& clusters = store.clusters;
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    const Moments& count = clusters.counting_moments(slot);
+    const Moments& mass = clusters.mass(slot) > 0 ? clusters.moments[slot] : count;
+    const Vector3d off_centre = map.a * (count.mean_offset() - mass.mean_offset()) +
+                                map.b * (count.mean_velocity() - mass.mean_velocity());
+    const auto number = double(clusters.count[slot]);
+    return {number, clusters.position[slot] + off_centre,
+            number / count.weight * map_position_moments(count, map).matrix()};
+}
+
 /// Position moments of both together, every particle weighing the same.
 Symmetric3 union_moments(const ClusterStore& store, std::size_t a, std::size_t b, std::uint64_t frame)
 {
-    const ClusterTable& clusters = store.clusters;
-    const auto own = [&](std::size_t slot) {
-        return map_position_moments(clusters.counting_moments(slot), clusters.blocks(slot, store.rule, frame))
-            .matrix();
-    };
-    const auto na = double(clusters.count[a]);
-    const auto nb = double(clusters.count[b]);
-    const Vector3d apart = clusters.position[b] - clusters.position[a];
-    return Symmetric3::of(own(a) + own(b) + (na * nb / (na + nb)) * apart * apart.transpose());
+    const Crowd one = crowd(store, a, frame);
+    const Crowd other = crowd(store, b, frame);
+    const Vector3d apart = other.centre - one.centre;
+    const double reduced = one.number * other.number / (one.number + other.number);
+    return Symmetric3::of(one.moments + other.moments + reduced * apart * apart.transpose());
 }
 
 bool move_alike(const RegionSettings& region, const Vector3d& va, const Vector3d& vb)
@@ -46,13 +62,23 @@ bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterS
             !wider_than(region.max_breadth, union_moments(store, a.index, b.index, frame), size));
 }
 
-bool wider_than(double limit, const Symmetric3& second_moments, double size)
+bool wider_than(double limit, const Symmetric3& sum, double size)
 {
     // The largest principal variance is between a third of the trace and the whole of it.
-    const double squared = 20 * second_moments.trace() / size;
-    if (squared <= limit * limit)
+    const double most = limit * limit * size / 20;
+    if (sum.trace() <= most)
         return false;
-    return squared > 3 * limit * limit || breadth(second_moments, size) > limit;
+    if (sum.trace() > 3 * most)
+        return true;
+    // It is above `most` just if most 1 - sum, by elimination, has a negative pivot.
+    const double first = most - sum.xx;
+    if (first <= 0)
+        return true;
+    const double second = most - sum.yy - sum.xy * sum.xy / first;
+    if (second <= 0)
+        return true;
+    const double across = sum.yz + sum.xy * sum.xz / first;
+    return most - sum.zz - sum.xz * sum.xz / first - across * across / second < 0;
 }
 
 } // namespace slod
