@@ -20,7 +20,7 @@ struct InputLogHeader {
     std::string scene_name;            ///< name of the scene file, for messages
     std::string scene_text;            ///< what was in it
     std::vector<std::string> settings; ///< overrides, "table.key=value"
-    std::filesystem::path input;       ///< file of initial conditions, absolute; empty: the scene's own
+    std::filesystem::path input;       ///< file of initial conditions that was read, absolute; empty: none
     std::string initial_source;        ///< in words, where the first particles came from
     std::uint64_t initial_hash = 0;    ///< content_hash() of them
 };

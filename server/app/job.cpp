@@ -51,16 +51,17 @@ private:
     std::filesystem::path file_;
 };
 
-/// Loads a scene and its particles as the header's settings and the command line's placement say.
-std::variant<Job, Problems> load(const std::filesystem::path& scene_file, InputLogHeader origin,
-                                 const CommandLine& line)
+/// Loads a scene as the header's settings and the command line's placement say, and its particles from
+/// `input`, if that is not empty.
+std::variant<Job, Problems> load(const std::filesystem::path& scene_file, const std::filesystem::path& input,
+                                 InputLogHeader origin, const CommandLine& line)
 {
     std::vector<std::string> overrides = origin.settings;
     overrides.insert(overrides.end(), line.placement.begin(), line.placement.end());
     auto scene = load_scene(scene_file, overrides);
     if (auto* found = std::get_if<Problems>(&scene))
         return std::move(*found);
-    auto initial = load_initial(std::get<Scene>(scene), origin.input);
+    auto initial = load_initial(std::get<Scene>(scene), input);
     if (auto* found = std::get_if<Problems>(&initial))
         return std::move(*found);
     return Job{.scene = std::get<Scene>(std::move(scene)),
@@ -72,17 +73,18 @@ std::variant<Job, Problems> load(const std::filesystem::path& scene_file, InputL
 
 std::variant<Job, Problems> load_new(const CommandLine& line)
 {
-    const auto input = line.input.empty() ? line.input : std::filesystem::absolute(line.input);
-    auto loaded = load(line.scene,
+    auto loaded = load(line.scene, line.input,
                        {.version = std::string(version()),
                         .scene_name = line.scene.filename(),
                         .scene_text = text_of(line.scene),
                         .settings = line.settings,
-                        .input = input,
+                        .input = {},
                         .initial_source = {},
                         .initial_hash = 0},
                        line);
     if (auto* job = std::get_if<Job>(&loaded)) {
+        if (!job->initial.file.empty())
+            job->origin.input = std::filesystem::absolute(job->initial.file);
         job->origin.initial_source = job->initial.source;
         job->origin.initial_hash = content_hash(job->initial.particles);
     }
@@ -113,7 +115,7 @@ std::variant<Job, Problems> load_replay(const CommandLine& line)
         return found;
 
     const SceneCopy scene(log.header.scene_name, log.header.scene_text);
-    auto loaded = load(scene.file(), log.header, line);
+    auto loaded = load(scene.file(), log.header.input, log.header, line);
     if (auto* job = std::get_if<Job>(&loaded)) {
         if (content_hash(job->initial.particles) != log.header.initial_hash)
             return Problems{line.replay.string() +

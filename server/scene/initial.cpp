@@ -57,7 +57,7 @@ std::variant<InitialParticles, Problems> from_file(const Scene& scene, const std
     auto read = read_gadget2(file, kinds);
     if (auto* const found = std::get_if<Problems>(&read))
         return std::move(*found);
-    InitialParticles initial{std::get<ParticleSet>(std::move(read)), {}};
+    InitialParticles initial{std::get<ParticleSet>(std::move(read)), {}, file};
     initial.source = "GADGET-2 file " + file.string() + ", " + census(initial.particles, kinds) + ".";
     return initial;
 }
@@ -89,7 +89,7 @@ ParticleSet generate(const Scene& scene, InitialModel model)
 
 InitialParticles generated(const Scene& scene, InitialModel model, const std::string& why)
 {
-    InitialParticles initial{generate(scene, model), {}};
+    InitialParticles initial{generate(scene, model), {}, {}};
     if (model == InitialModel::None)
         initial.source = "No particles at the start.";
     else

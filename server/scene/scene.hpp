@@ -37,7 +37,8 @@ std::string scene_reference();
 /// The particles a scene starts with.
 struct InitialParticles {
     ParticleSet particles;
-    std::string source; ///< in words, for the log: which file, or which model and why
+    std::string source;         ///< in words, for the log: which file, or which model and why
+    std::filesystem::path file; ///< that was read; empty when none was
 };
 
 /// Reads or generates them. `input` (may be empty) names the file instead of the scene's own, which unless
