@@ -1,83 +1,13 @@
-#include "e2e/server_process.hpp"
+#include "e2e/server_fixture.hpp"
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace slod {
 namespace {
 
 using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
 
-constexpr const char* fountain = R"(title = "A small fountain"
-
-[[kind]]
-name = "water"
-
-[uniform_gravity]
-acceleration = [0.0, 0.0, -9.81]
-
-[[emitter]]
-name = "jet"
-kind = "water"
-speed = 10.0
-cone_angle = 20.0
-rate = 6000.0
-lifetime = 0.2
-
-[initial]
-model = "none"
-
-[background]
-max_breadth = 1.0
-)";
-
-class Server : public testing::Test {
-protected:
-    Server()
-    {
-        std::filesystem::create_directories(folder_);
-        write(scene_, fountain);
-    }
-    ~Server() override { std::filesystem::remove_all(folder_); }
-
-    static void write(const std::filesystem::path& file, const std::string& text)
-    {
-        std::ofstream(file) << text;
-    }
-    static std::string content(const std::filesystem::path& file)
-    {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-
-    /// Runs the fountain at full speed, off the wire, and returns its report.
-    Json reported(const Arguments& more)
-    {
-        Arguments arguments{scene_, "--no-dds", "--free-run", "--report", report_};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const ServerRun run = run_server(arguments);
-        EXPECT_EQ(run.exit_code, 0) << run.output;
-        return Json::parse(content(report_));
-    }
-
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string("slod-server-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    const std::filesystem::path scene_ = folder_ / "fountain.toml";
-    const std::filesystem::path report_ = folder_ / "report.json";
-    const std::filesystem::path log_ = folder_ / "input.log";
-};
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
+class Server : public ServerTest {};
 
 TEST_F(Server, RunsTheFramesAskedForAndReportsThem)
 {
@@ -101,7 +31,7 @@ TEST_F(Server, PaceThreadsAndWireDoNotChangeTheOutcome)
     const ServerRun paced = run_server({scene_, "--frames", "30", "--domain", "117", "--set",
                                         "server.frame_rate=1000", "--report", report_});
     EXPECT_EQ(paced.exit_code, 0) << paced.output;
-    EXPECT_EQ(Json::parse(content(report_))["state_hash"], expected);
+    EXPECT_EQ(Json::parse(file_content(report_))["state_hash"], expected);
     EXPECT_NE(reported({"--frames", "30", "--set", "seed=2"})["state_hash"], expected)
         << "the hash says nothing";
 }
@@ -112,19 +42,19 @@ class StopSignal : public Server, public testing::WithParamInterface<int> {};
 // counts as hanging before) nor begin another frame.
 TEST_P(StopSignal, EndsTheRunWithinTheFrame)
 {
-    const std::filesystem::path report = folder_ / "report.json";
-    ServerProcess server({scene_, "--no-dds", "--set", "server.frame_rate=0.01", "--report", report});
+    ServerProcess server({scene_, "--no-dds", "--set", "server.frame_rate=0.01", "--report", report_});
     ASSERT_TRUE(server.prints(" started ")) << server.output();
     server.signal(GetParam());
     EXPECT_EQ(server.wait(), 0) << server.output();
-    EXPECT_LE(Json::parse(content(report))["frames"], 1);
+    EXPECT_LE(Json::parse(file_content(report_))["frames"], 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, StopSignal, testing::Values(SIGINT, SIGTERM));
 
 TEST_F(Server, NamesFileLineAndKeyOfEveryMistakeInAScene)
 {
-    write(scene_, "title = \"bad\"\n[time]\nstep = -1.0\n[[kind]]\nname = \"water\"\n[motion]\nclok = 0.2\n");
+    write_file(scene_,
+               "title = \"bad\"\n[time]\nstep = -1.0\n[[kind]]\nname = \"water\"\n[motion]\nclok = 0.2\n");
     const ServerRun run = run_server({scene_, "--no-dds", "--frames", "1"});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_TRUE(contains(run.output, scene_.string() + ":3")) << run.output;
@@ -150,7 +80,7 @@ TEST_F(Server, RefusesWrongSettingsOnTheCommandLine)
 TEST_F(Server, RefusesAPlaceItCannotWriteBeforeTheFirstFrame)
 {
     const std::string place = folder_ / "none" / "file";
-    write(folder_ / "file", "");
+    write_file(folder_ / "file", "");
     const std::string no_folder = folder_ / "file" / "folder";
     for (const Arguments& output : {Arguments{"--report", place}, Arguments{"--picture", place},
                                     Arguments{"--output-dir", no_folder}}) {
@@ -161,58 +91,12 @@ TEST_F(Server, RefusesAPlaceItCannotWriteBeforeTheFirstFrame)
     }
 }
 
-TEST_F(Server, ReplayAgreesAtAnotherNumberOfThreadsWithoutTheSceneFile)
-{
-    const Json recorded = reported({"--frames", "40", "--set", "seed=5", "--output-dir", folder_});
-    std::filesystem::remove(scene_);
-    const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds", "--threads", "3"});
-    EXPECT_EQ(replay.exit_code, 0) << replay.output;
-    EXPECT_TRUE(contains(replay.output, recorded["state_hash"])) << replay.output;
-}
-
-TEST_F(Server, ReplayThatComesOutDifferentlyShowsBothHashes)
-{
-    const std::string hash = reported({"--frames", "20", "--output-dir", folder_})["state_hash"];
-    const std::string other(16, hash[0] == 'a' ? 'b' : 'a');
-    std::string log = content(log_);
-    log.replace(log.rfind(hash), hash.size(), other);
-    write(log_, log);
-    const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds"});
-    EXPECT_EQ(replay.exit_code, 1) << replay.output;
-    EXPECT_TRUE(contains(replay.output, hash)) << replay.output;
-    EXPECT_TRUE(contains(replay.output, other)) << replay.output;
-}
-
 // The scene's text is part of the log's first line, in which only the seed is changed.
-TEST_F(Server, ReplayOfAnotherSceneComesOutDifferently)
-{
-    write(scene_, "seed = 1\n" + std::string(fountain));
-    reported({"--frames", "20", "--output-dir", folder_});
-    std::string log = content(log_);
-    log.replace(log.find("seed = 1"), 8, "seed = 2");
-    write(log_, log);
-    EXPECT_EQ(run_server({"--replay", log_, "--free-run", "--no-dds"}).exit_code, 1);
-}
-
-TEST_F(Server, RefusesALogWithoutAnEndOrWithACommandItDoesNotKnow)
-{
-    reported({"--frames", "1", "--output-dir", folder_});
-    const std::string log = content(log_);
-    const std::size_t second_line = log.find('\n') + 1;
-    write(log_, log.substr(0, second_line));
-    EXPECT_EQ(run_server({"--replay", log_, "--no-dds"}).exit_code, 2);
-    write(log_,
-          log.substr(0, second_line) + R"({"frame":1,"command":"dance"})" + "\n" + log.substr(second_line));
-    const ServerRun run = run_server({"--replay", log_, "--no-dds"});
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_TRUE(contains(run.output, "dance")) << run.output;
-}
-
 TEST_F(Server, DrawsAPicture)
 {
     const std::filesystem::path picture = folder_ / "picture.png";
     reported({"--frames", "30", "--picture", picture});
-    EXPECT_EQ(content(picture).substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_EQ(file_content(picture).substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
 TEST_F(Server, ChecksExplainsAndListsKeysWithoutRunning)

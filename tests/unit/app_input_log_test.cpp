@@ -1,21 +1,19 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "app/input_log.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace slod {
 namespace {
 
 class InputLogTest : public testing::Test {
 protected:
-    ~InputLogTest() override { std::filesystem::remove_all(folder_); }
-
     InputLog read() const
     {
         const auto log = read_input_log(file_);
@@ -26,12 +24,6 @@ protected:
         return std::get<InputLog>(log);
     }
 
-    std::string content() const
-    {
-        std::ifstream stream(file_);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-
     /// What reading says is wrong, in one string.
     std::string problem() const
     {
@@ -40,9 +32,8 @@ protected:
         return found ? found->front() : std::string();
     }
 
-    const std::filesystem::path folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string("slod-log-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const ScratchFolder scratch_;
+    const std::filesystem::path folder_ = scratch_.path() / "made";
     const std::filesystem::path file_ = folder_ / "input.log";
     const InputLogHeader header_{.version = "1.2.3",
                                  .scene_name = "a.toml",
@@ -109,14 +100,14 @@ TEST_F(InputLogTest, NothingMayFollowTheEnd)
 TEST_F(InputLogTest, AnotherKindOfFileIsNoLog)
 {
     InputLogWriter(folder_, header_).finish({.frames = 1, .state_hash = 1});
-    const std::string log = content();
+    const std::string log = file_content(file_);
     const auto replaced = [&](const std::string& part, const std::string& by) {
         return std::string(log).replace(log.find(part), part.size(), by);
     };
     for (const std::string& text :
          {std::string(), std::string("title = \"a scene\"\n"), replaced("slod-input-log", "another-log"),
           replaced("\"format_version\":1", "\"format_version\":2")}) {
-        std::ofstream(file_) << text;
+        write_file(file_, text);
         EXPECT_NE(problem(), "") << text;
     }
 }

@@ -142,6 +142,7 @@ TEST(Scales, TicksAreRoundAndNotTooMany)
 {
     EXPECT_EQ(round_numbers(-1, 1, 4), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
     EXPECT_EQ(round_numbers(0, 90, 9), (std::vector<double>{0, 10, 20, 30, 40, 50, 60, 70, 80, 90}));
+    EXPECT_EQ(round_numbers(0, 9, 5), (std::vector<double>{0, 2, 4, 6, 8}));
     EXPECT_EQ(round_numbers(-172, 172, 9), (std::vector<double>{-150, -100, -50, 0, 50, 100, 150}));
     EXPECT_FALSE(std::signbit(round_numbers(-0.3, 90, 9).front())) << "the label would be -0";
 }

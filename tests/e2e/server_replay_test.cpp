@@ -1,0 +1,112 @@
+#include "e2e/server_fixture.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+namespace slod {
+namespace {
+
+class Replay : public ServerTest {};
+
+/// A GADGET-2 file (SnapFormat 1, Springel 2005) of eight halo particles at rest, `spacing` apart on a line.
+std::string gadget_file(float spacing)
+{
+    constexpr std::int32_t count = 8;
+    std::string bytes;
+    const auto record = [&](const void* data, std::size_t size) {
+        const auto length = std::uint32_t(size);
+        const std::string mark(reinterpret_cast<const char*>(&length), sizeof length);
+        bytes += mark + std::string(static_cast<const char*>(data), size) + mark;
+    };
+    std::array<char, 256> header{};
+    const double mass = 1;
+    const std::int32_t files = 1;
+    std::memcpy(&header[1 * sizeof count], &count, sizeof count); // of type 1, the halo, in this file,
+    std::memcpy(&header[24 + 1 * sizeof mass], &mass, sizeof mass);
+    std::memcpy(&header[96 + 1 * sizeof count], &count, sizeof count); // and in all files
+    std::memcpy(&header[124], &files, sizeof files);
+    record(header.data(), header.size());
+
+    std::array<float, 3 * count> positions{}, velocities{};
+    std::array<std::uint32_t, count> ids{};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        positions[3 * i] = spacing * float(i);
+        ids[i] = i;
+    }
+    record(positions.data(), sizeof positions);
+    record(velocities.data(), sizeof velocities);
+    record(ids.data(), sizeof ids);
+    return bytes;
+}
+
+TEST_F(Replay, AgreesAtAnotherNumberOfThreadsWithoutTheSceneFile)
+{
+    const nlohmann::json recorded = reported({"--frames", "40", "--set", "seed=5", "--output-dir", folder_});
+    std::filesystem::remove(scene_);
+    const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds", "--threads", "3"});
+    EXPECT_EQ(replay.exit_code, 0) << replay.output;
+    EXPECT_TRUE(contains(replay.output, recorded["state_hash"])) << replay.output;
+}
+
+TEST_F(Replay, ThatComesOutDifferentlyShowsBothHashes)
+{
+    const std::string hash = reported({"--frames", "20", "--output-dir", folder_})["state_hash"];
+    const std::string other(16, hash[0] == 'a' ? 'b' : 'a');
+    std::string log = file_content(log_);
+    log.replace(log.rfind(hash), hash.size(), other);
+    write_file(log_, log);
+    const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds"});
+    EXPECT_EQ(replay.exit_code, 1) << replay.output;
+    EXPECT_TRUE(contains(replay.output, hash)) << replay.output;
+    EXPECT_TRUE(contains(replay.output, other)) << replay.output;
+}
+
+TEST_F(Replay, OfAnotherSceneComesOutDifferently)
+{
+    write_file(scene_, "seed = 1\n" + std::string(fountain));
+    reported({"--frames", "20", "--output-dir", folder_});
+    std::string log = file_content(log_);
+    log.replace(log.find("seed = 1"), 8, "seed = 2");
+    write_file(log_, log);
+    EXPECT_EQ(run_server({"--replay", log_, "--free-run", "--no-dds"}).exit_code, 1);
+}
+
+TEST_F(Replay, RefusesALogWithoutAnEndOrWithACommandItDoesNotKnow)
+{
+    reported({"--frames", "1", "--output-dir", folder_});
+    const std::string log = file_content(log_);
+    const std::size_t second_line = log.find('\n') + 1;
+    write_file(log_, log.substr(0, second_line));
+    EXPECT_EQ(run_server({"--replay", log_, "--no-dds"}).exit_code, 2);
+    write_file(log_, log.substr(0, second_line) + R"({"frame":1,"command":"dance"})" + "\n" +
+                         log.substr(second_line));
+    const ServerRun run = run_server({"--replay", log_, "--no-dds"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_TRUE(contains(run.output, "dance")) << run.output;
+}
+
+// Recorded with the file found through the environment, replayed without that, and again with another file
+// there.
+TEST_F(Replay, FindsTheRecordedParticlesAndRefusesOthers)
+{
+    const std::filesystem::path data = folder_ / "stars.gadget2";
+    write_file(data, gadget_file(1));
+    write_file(scene_, "[[kind]]\nname = \"halo\"\nsoftening = 0.1\n[gravity]\n"
+                       "[initial]\nmodel = \"gadget2\"\nfile = \"stars.gadget2\"\n");
+    setenv("SLOD_DATA_DIR", folder_.c_str(), 1);
+    reported({"--frames", "5", "--output-dir", folder_});
+    unsetenv("SLOD_DATA_DIR");
+    const Arguments replay{"--replay", log_, "--free-run", "--no-dds"};
+    const ServerRun same = run_server(replay);
+    EXPECT_EQ(same.exit_code, 0) << same.output;
+
+    write_file(data, gadget_file(2));
+    const ServerRun other = run_server(replay);
+    EXPECT_EQ(other.exit_code, 2) << other.output;
+    EXPECT_TRUE(contains(other.output, data)) << other.output;
+}
+
+} // namespace
+} // namespace slod
