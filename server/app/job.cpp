@@ -99,6 +99,9 @@ Problems problems(const std::filesystem::path& file, const InputLog& log)
         found.push_back(file.string() +
                         ": the log has no end; its run was cut short, so there is no outcome to "
                         "compare with");
+    else if (log.end->frames == 0)
+        found.push_back(file.string() +
+                        ": the run was stopped before its first frame; there is nothing to repeat");
     for (const LoggedCommand& command : log.commands)
         found.push_back(file.string() + ": frame " + std::to_string(command.frame) + ": unknown command \"" +
                         command.command + "\"");

@@ -1,5 +1,6 @@
 #include "app/log.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <mutex>

@@ -1,7 +1,10 @@
 #include "app/status.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
+#include <numeric>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -13,13 +16,30 @@ namespace {
 
 constexpr int seconds_between_log_lines = 5;
 
-/// Every planned phase as ` name<separator>milliseconds`.
-std::string phase_times(const StepProfile& profile, const Plan& plan, char separator)
+/// The planned phases that take noticeable time, the longest first: the end of the line may be cut off.
+std::string longest_phases(const StepProfile& profile, const Plan& plan)
+{
+    constexpr double noticeable_ms = 0.05;
+    std::array<std::size_t, phase_count> order{};
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {
+        return profile.milliseconds[left] > profile.milliseconds[right];
+    });
+    std::string text;
+    for (const std::size_t phase : order)
+        if (plan.runs[phase] && profile.milliseconds[phase] >= noticeable_ms)
+            fmt::format_to(std::back_inserter(text), " {} {:.1f}", names(Phase{})[phase],
+                           profile.milliseconds[phase]);
+    return text;
+}
+
+/// Every planned phase as ` name=milliseconds`.
+std::string phase_records(const StepProfile& profile, const Plan& plan)
 {
     std::string text;
     for (std::size_t phase = 0; phase < phase_count; ++phase)
         if (plan.runs[phase])
-            fmt::format_to(std::back_inserter(text), " {}{}{:.2f}", names(Phase{})[phase], separator,
+            fmt::format_to(std::back_inserter(text), " {}={:.2f}", names(Phase{})[phase],
                            profile.milliseconds[phase]);
     return text;
 }
@@ -35,10 +55,10 @@ std::string speed_text(double real_time_factor)
 
 std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
 {
-    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters  {:.2f} ms:{}",
+    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters  {:.1f} ms:{}",
                        snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
                        grouped(snapshot.counts.particles), grouped(snapshot.counts.clusters), means.work_ms,
-                       phase_times(means.profile, plan, ' '));
+                       longest_phases(means.profile, plan));
 }
 
 std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
@@ -47,7 +67,7 @@ std::string status_record(const Snapshot& snapshot, const LoopMeans& means, cons
         "status frame={} time={:.6g} frame_rate_hz={:.1f} real_time_factor={:.4g} particles={} "
         "clusters={} work_ms={:.2f}{}",
         snapshot.frame, snapshot.time, means.frame_rate_hz, means.real_time_factor, snapshot.counts.particles,
-        snapshot.counts.clusters, means.work_ms, phase_times(means.profile, plan, '='));
+        snapshot.counts.clusters, means.work_ms, phase_records(means.profile, plan));
 }
 
 void StatusDisplay::update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)

@@ -9,7 +9,7 @@
 
 namespace slod {
 
-/// One line for people: frame, rates, sizes and the milliseconds of each planned phase.
+/// One line for people: frame, rates, sizes and the milliseconds of the longest phases, longest first.
 std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
 
 /// The same as key=value, for a log.

@@ -73,18 +73,29 @@ TEST_F(Replay, OfAnotherSceneComesOutDifferently)
     EXPECT_EQ(run_server({"--replay", log_, "--free-run", "--no-dds"}).exit_code, 1);
 }
 
-TEST_F(Replay, RefusesALogWithoutAnEndOrWithACommandItDoesNotKnow)
+// A log of one frame; its header is followed by what makes it unfit.
+TEST_F(Replay, RefusesALogItCannotRepeat)
 {
     reported({"--frames", "1", "--output-dir", folder_});
     const std::string log = file_content(log_);
-    const std::size_t second_line = log.find('\n') + 1;
-    write_file(log_, log.substr(0, second_line));
-    EXPECT_EQ(run_server({"--replay", log_, "--no-dds"}).exit_code, 2);
-    write_file(log_, log.substr(0, second_line) + R"({"frame":1,"command":"dance"})" + "\n" +
-                         log.substr(second_line));
-    const ServerRun run = run_server({"--replay", log_, "--no-dds"});
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_TRUE(contains(run.output, "dance")) << run.output;
+    const std::string header = log.substr(0, log.find('\n') + 1);
+    const std::string end = log.substr(header.size());
+    const std::array<std::array<std::string, 2>, 3> cases{{
+        {"", "no end"},
+        {R"({"frame":1,"command":"dance"})"
+         "\n" +
+             end,
+         "dance"},
+        {R"({"frames":0,"state_hash":"0123456789abcdef"})"
+         "\n",
+         "first frame"},
+    }};
+    for (const auto& [rest, reason] : cases) {
+        write_file(log_, header + rest);
+        const ServerRun run = run_server({"--replay", log_, "--no-dds"});
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_TRUE(contains(run.output, reason)) << run.output;
+    }
 }
 
 // Recorded with the file found through the environment, replayed without that, and again with another file

@@ -130,13 +130,25 @@ TEST(Report, SettingsAreThoseInEffect)
 TEST(Status, NamesThePlannedPhasesAlone)
 {
     LoopMeans means;
-    means.profile[Phase::Forces] = 7.25;
+    means.profile[Phase::Forces] = 7.5;
+    means.profile[Phase::Emit] = 1;
     for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan()),
                                     status_record(snapshot(8, 0), means, gravity_plan())}) {
-        EXPECT_NE(text.find("7.25"), std::string::npos) << text;
+        EXPECT_NE(text.find("7.5"), std::string::npos) << text;
         EXPECT_NE(text.find("forces"), std::string::npos) << text;
         EXPECT_EQ(text.find("emit"), std::string::npos) << text;
     }
+}
+
+// A narrow terminal cuts the line's end off.
+TEST(Status, TheLongestPhaseComesFirst)
+{
+    LoopMeans means;
+    means.profile[Phase::Update] = 2;
+    means.profile[Phase::Forces] = 7;
+    Plan plan = gravity_plan();
+    plan.runs[std::size_t(Phase::Update)] = true;
+    EXPECT_NE(status_line(snapshot(8, 0), means, plan).find("forces 7.0 update 2.0"), std::string::npos);
 }
 
 TEST(Status, IsReadableForPeopleAndForPrograms)
