@@ -59,6 +59,7 @@ struct ClusterTable {
     AlignedVector<double> variance;       ///< trace of the position covariance; columns.acceleration
 
     std::size_t slot_count() const { return count.size(); }
+    std::size_t slot_capacity() const { return position.capacity(); } ///< rows without taking memory
     std::size_t alive_count() const { return slot_count() - free_slots.size(); }
     bool alive(std::size_t slot) const { return count[slot] > 0; }
     double mass(std::size_t slot) const { return moments[slot].weight; }

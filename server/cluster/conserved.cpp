@@ -1,6 +1,7 @@
 #include "cluster/conserved.hpp"
 
-#include <vector>
+#include <algorithm>
+#include <array>
 
 #include <Eigen/Geometry>
 
@@ -33,9 +34,10 @@ ConservedQuantities conserved_quantities(const ClusterStore& store, std::size_t 
 
 ConservedQuantities conserved_quantities(const ClusterStore& store, std::uint64_t frame)
 {
-    constexpr std::size_t block = 1024;
+    constexpr std::size_t most_blocks = 64;
     const std::size_t slots = store.clusters.slot_count();
-    std::vector<ConservedQuantities> sums(block_count(slots, block));
+    const std::size_t block = std::max<std::size_t>(1024, block_count(slots, most_blocks));
+    std::array<ConservedQuantities, most_blocks> sums;
     for_each_block(slots, block, [&](std::size_t first, std::size_t last) {
         for (std::size_t slot = first; slot < last; ++slot)
             if (store.clusters.alive(slot))

@@ -10,6 +10,7 @@ namespace slod {
 namespace {
 
 constexpr std::size_t block = 512;
+constexpr std::size_t deepest_path = 128; ///< nodes from the root: octants of cells, and k-d nodes in a cell
 
 /// Spreads the low 21 bits of `value` to every third bit.
 std::uint64_t spread_bits(std::uint64_t value)
@@ -207,6 +208,16 @@ void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double 
                                                         : 0;
         }
     });
+}
+
+void reserve(ForceView& view, std::size_t bodies, std::size_t pools)
+{
+    for (auto* column : {&view.x, &view.y, &view.z, &view.mass, &view.q})
+        column->reserve(bodies);
+    view.slot.reserve(bodies);
+    view.cells.reserve(pools);
+    // An inner node has two children at least; while one is being built, its path may hold some with one.
+    view.nodes.reserve(2 * pools + deepest_path);
 }
 
 void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,

@@ -47,6 +47,9 @@ struct ForceView {
 void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double gravitational_constant,
                     std::uint64_t frame);
 
+/// Provides memory for views of so many bodies in so many pools.
+void reserve(ForceView& view, std::size_t bodies, std::size_t pools);
+
 /// Rebuilds the view of the clusters as they are. The variances must be measured.
 void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
            const GravitySettings& gravity);

@@ -33,18 +33,24 @@ void Simulation::State::copy_clusters()
 {
     const ClusterTable& clusters = store.clusters;
     ClusterStates& out = snapshot.clusters;
+    const std::size_t room = clusters.slot_capacity();
+    out.id.reserve(room);
     out.id.clear();
     for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot)
         if (clusters.alive(slot))
             out.id.push_back(clusters.id(slot));
     const std::size_t count = out.id.size();
-    out.position.resize(count);
-    out.velocity.resize(count);
-    out.mass.resize(count);
-    out.count.resize(count);
-    out.covariance.resize(count);
-    out.formation.resize(count);
-    out.region.resize(count);
+    const auto resize = [&](auto& column) {
+        column.reserve(room);
+        column.resize(count);
+    };
+    resize(out.position);
+    resize(out.velocity);
+    resize(out.mass);
+    resize(out.count);
+    resize(out.covariance);
+    resize(out.formation);
+    resize(out.region);
     for_each_block(count, 1024, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const std::size_t slot = out.id[i].slot.index;

@@ -82,8 +82,8 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     store.uniform_mass = plan.uniform_mass;
     for (const ParticleKind& kind : scene.kinds)
         store.kind_softening_squared.push_back(kind.softening * kind.softening);
-    open_frame();
     reforming.found(tree, initial, frame);
+    make_room();
     if (scene.gravity) {
         measure_moments();
         evaluate_forces();
@@ -103,9 +103,23 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 void Simulation::State::open_frame()
 {
     store.members.recycle(frame);
-    const std::uint64_t moving = plan.clocked ? particle_count : particle_count / 8;
+    make_room();
+}
+
+void Simulation::State::make_room()
+{
+    // All pools may be due at once; splits and merges come one by one.
+    const std::uint64_t moving = plan.clocked ? particle_count : particle_count / 8 + 4096;
     store.members.reserve(moving + moving / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
+    for (Subtree& subtree : tree.subtrees)
+        reserve(subtree, subtree.pool_count() / 2 + 256);
+    if (plan.clocked)
+        reforming.reserve(tree, moving);
+    else
+        regrouping.reserve(moving);
+    if (plan.has(Phase::Moments))
+        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity());
 }
 
 void Simulation::State::kick()
@@ -133,6 +147,7 @@ void Simulation::State::emit()
         snapshot.counts.died = expiry.update(tree, context());
     snapshot.counts.born = emission.update(tree, context(), plan.has(Phase::CloseKick));
     particle_count += snapshot.counts.born - snapshot.counts.died;
+    make_room(); // for the newborn
 }
 
 void Simulation::State::update()

@@ -16,7 +16,8 @@ namespace slod {
 struct Simulation::State {
     State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options);
 
-    void open_frame(); ///< Commands: recycles member slabs, and makes room so that no phase has to
+    void open_frame(); ///< Commands: recycles member slabs, and makes room
+    void make_room();  ///< Provides memory for the frame, so that no other phase but emit has to take any
     void kick();
     void close_kick();
     void propagate();

@@ -1,5 +1,6 @@
 #include "tree/cell_map.hpp"
 
+#include <bit>
 #include <utility>
 
 #include "core/assert.hpp"
@@ -31,8 +32,7 @@ NodeId CellMap::find(const Cell& cell) const
 void CellMap::insert(const Cell& cell, NodeId root)
 {
     SLOD_ASSERT(root.valid() && !find(cell).valid());
-    if (2 * (size_ + 1) > slots_.size())
-        grow();
+    reserve(size_ + 1);
     slots_[position_of(cell)] = {cell, root};
     ++size_;
 }
@@ -53,9 +53,15 @@ void CellMap::erase(const Cell& cell)
     slots_[hole] = {};
 }
 
-void CellMap::grow()
+void CellMap::reserve(std::size_t cells)
 {
-    std::vector<Slot> old(2 * slots_.size());
+    if (2 * cells > slots_.size())
+        grow(std::bit_ceil(2 * cells));
+}
+
+void CellMap::grow(std::size_t slots)
+{
+    std::vector<Slot> old(slots);
     std::swap(old, slots_);
     for (const Slot& slot : old)
         if (slot.root.valid())

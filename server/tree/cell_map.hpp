@@ -33,6 +33,9 @@ public:
 
     std::size_t size() const { return size_; }
 
+    /// Provides room for `cells` cells in all.
+    void reserve(std::size_t cells);
+
     /// Calls visit(cell, root) for every cell, in no particular but always the same order.
     template <class Visitor>
     void for_each(const Visitor& visit) const
@@ -51,7 +54,7 @@ private:
     std::size_t mask() const { return slots_.size() - 1; }
     std::size_t home(const Cell& cell) const;
     std::size_t position_of(const Cell& cell) const; ///< of the cell, or of the free slot it would take
-    void grow();
+    void grow(std::size_t slots);
 
     std::vector<Slot> slots_; ///< a power of two of them
     std::size_t size_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/assert.hpp"
+#include "core/make_room.hpp"
 #include "core/parallel.hpp"
 
 namespace slod {
@@ -71,6 +72,17 @@ void Grouping::resize(std::size_t count)
     particles.resize(count);
     place.resize(count);
     order.resize(count);
+}
+
+void Grouping::reserve(std::size_t particle_count, std::size_t group_count, std::size_t cluster_count)
+{
+    make_room(particles, particle_count);
+    make_room(place, particle_count);
+    make_room(order, particle_count);
+    make_room(keys, particle_count);
+    make_room(ordered, particle_count);
+    groups.reserve(group_count);
+    slots.reserve(cluster_count);
 }
 
 void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,

@@ -38,6 +38,9 @@ struct Grouping {
 
     /// Room for `count` particles; the arrays per particle have exactly this length then.
     void resize(std::size_t count);
+
+    /// Provides memory for so many particles, groups and clusters to be.
+    void reserve(std::size_t particle_count, std::size_t group_count, std::size_t cluster_count);
 };
 
 /// Members that clusters in `slots` hold, mapped out to the front of `grouping`, in order; the clusters end:

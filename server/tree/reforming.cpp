@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/assert.hpp"
+#include "core/make_room.hpp"
 #include "core/parallel.hpp"
 
 namespace slod {
@@ -43,6 +44,18 @@ void Reforming::reform_all(SlodTree& tree, std::uint64_t frame, UpdateCounts& co
         for (Pool& pool : subtree.pools)
             pool.due_frame = frame;
     update(tree, frame, counts);
+}
+
+void Reforming::reserve(const SlodTree& tree, std::size_t particle_count)
+{
+    const std::size_t pools = tree.pool_capacity();
+    const std::size_t clusters = context_.store.clusters.slot_capacity();
+    grouping_.reserve(particle_count, pools, clusters);
+    make_room(target_, particle_count);
+    due_.reserve(pools);
+    arrivals_.reserve(pools);
+    pool_base_.reserve(tree.subtrees.size());
+    ending_.reserve(clusters);
 }
 
 void Reforming::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)

@@ -27,6 +27,9 @@ public:
     /// Ends all lives now, whatever their clocks say: for lives that the first forces have yet to set.
     void reform_all(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts);
 
+    /// Provides memory for updates of so many particles, in the clusters and pools there is room for.
+    void reserve(const SlodTree& tree, std::size_t particle_count);
+
     /// Re-forms the pools that are due at the end of frame `frame`.
     void update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts);
 

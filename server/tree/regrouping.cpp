@@ -17,6 +17,16 @@ constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit; apart, as 
 
 } // namespace
 
+void Regrouping::reserve(std::size_t particle_count)
+{
+    const std::size_t clusters = context_.store.clusters.slot_capacity();
+    grouping_.reserve(particle_count, clusters, clusters);
+    actions_.reserve(clusters);
+    targets_.reserve(clusters);
+    for (auto* list : {&crossing_, &splitting_, &merging_pairs_, &partner_, &by_position_})
+        list->reserve(clusters);
+}
+
 void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)
 {
     context_.frame = frame;

@@ -17,6 +17,10 @@ class Regrouping {
 public:
     Regrouping(bool merging, const UpdateContext& context) : merging_(merging), context_(context) {}
 
+    /// Provides memory for updates that form `particle_count` particles anew, in the clusters there is room
+    /// for.
+    void reserve(std::size_t particle_count);
+
     /// Updates after the clusters have moved to the end of frame `frame`.
     void update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts);
 

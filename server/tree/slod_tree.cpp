@@ -20,6 +20,14 @@ std::size_t SlodTree::pool_count() const
     return count;
 }
 
+std::size_t SlodTree::pool_capacity() const
+{
+    std::size_t capacity = 0;
+    for (const Subtree& subtree : subtrees)
+        capacity += subtree.pools.capacity();
+    return capacity;
+}
+
 PoolRef locate(const SlodTree& tree, const Vector3d& x)
 {
     const std::uint16_t region = tree.region_at(x);

@@ -30,6 +30,7 @@ struct SlodTree {
     std::uint16_t region_at(const Vector3d& x) const;
 
     std::size_t pool_count() const;
+    std::size_t pool_capacity() const; ///< of all regions, without taking memory
 };
 
 PoolRef locate(const SlodTree& tree, const Vector3d& x);   ///< invalid when the cell is not there

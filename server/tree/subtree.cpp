@@ -110,6 +110,20 @@ std::uint32_t Subtree::pool_limit() const
     return std::max(smallest_pool, std::uint32_t(settings.pool_factor * settings.max_cluster_size));
 }
 
+void reserve(Subtree& tree, std::size_t pools)
+{
+    const std::size_t needed = tree.pool_count() + pools;
+    if (needed <= tree.pools.capacity())
+        return;
+    const std::size_t room = needed + needed / 2;
+    tree.pools.reserve(room);
+    tree.free_pools.reserve(room);
+    tree.nodes.reserve(3 * room); // a root and a pair of nodes for each at most
+    tree.free_roots.reserve(room);
+    tree.free_node_pairs.reserve(room);
+    tree.cells.reserve(room);
+}
+
 Cell cell_of(const Subtree& tree, const Vector3d& x)
 {
     // What is farther out shares the cells at the rim.

@@ -63,6 +63,9 @@ struct Subtree {
     std::size_t pool_count() const { return pools.size() - free_pools.size(); }
 };
 
+/// Provides room for `pools` more pools, with their nodes and cells.
+void reserve(Subtree& tree, std::size_t pools);
+
 Cell cell_of(const Subtree& tree, const Vector3d& x);
 
 /// The pool at x; invalid when its cell is not there.
