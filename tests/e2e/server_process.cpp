@@ -1,5 +1,6 @@
 #include "e2e/server_process.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -14,9 +15,9 @@
 namespace slod {
 namespace {
 
-/// A server that prints nothing for so long hangs. Half of the longest frame that the settings allow, so that
-/// one that sleeps through a stop is caught as well.
-constexpr int patience_ms = 50'000;
+/// A server that takes longer hangs. Half of the longest frame that the settings allow, so that one that
+/// sleeps through a stop is caught as well; hundreds of times what any of the tests needs.
+constexpr std::chrono::seconds patience{50};
 
 std::filesystem::path server_file()
 {
@@ -59,8 +60,9 @@ ServerProcess::~ServerProcess()
 
 bool ServerProcess::prints(std::string_view text)
 {
+    const Clock::time_point deadline = Clock::now() + patience;
     while (output_.find(text) == std::string::npos)
-        if (!read_more())
+        if (!read_more(deadline))
             return false;
     return true;
 }
@@ -72,7 +74,8 @@ void ServerProcess::signal(int number) const
 
 int ServerProcess::wait()
 {
-    while (read_more()) {
+    const Clock::time_point deadline = Clock::now() + patience;
+    while (read_more(deadline)) {
     }
     if (hung_)
         kill(process_, SIGKILL);
@@ -82,10 +85,11 @@ int ServerProcess::wait()
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
 
-bool ServerProcess::read_more()
+bool ServerProcess::read_more(Clock::time_point deadline)
 {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     pollfd ready{.fd = pipe_, .events = POLLIN, .revents = 0};
-    hung_ = poll(&ready, 1, patience_ms) <= 0;
+    hung_ = poll(&ready, 1, std::max(int(left.count()), 0)) <= 0;
     if (hung_)
         return false;
     std::array<char, 4096> buffer{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <sys/types.h>
@@ -28,8 +29,10 @@ public:
     const std::string& output() const { return output_; }
 
 private:
-    /// Reads what comes next. False when nothing will, or nothing came in a long time.
-    bool read_more();
+    using Clock = std::chrono::steady_clock;
+
+    /// Reads what comes next. False when nothing will, or nothing does before `deadline`.
+    bool read_more(Clock::time_point deadline);
 
     pid_t process_ = -1;
     int pipe_ = -1;
