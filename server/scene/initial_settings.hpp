@@ -28,21 +28,22 @@ struct InitialSettings {
     InitialModel fallback = InitialModel::None; ///< when the file is not there; None: that is an error
 };
 
-/// An exponential disc with a Hernquist (1990) bulge in a truncated Hernquist halo, all live particles.
-/// Lengths and masses in scene units. A pair is two of these.
+/// An exponential disc with a Hernquist (1990) bulge and halo that fade to nothing, all live particles.
+/// Lengths and masses in scene units. A pair is two of these. The defaults are a galaxy like the Milky Way in
+/// kpc and 10^10 solar masses, which 10,000 particles can hold: a halo of no more than the disc needs.
 struct GalaxySettings {
     std::uint32_t particles = 10'000; ///< of one galaxy, all components together
-    double disc_share = 0.5;          ///< of the particles
-    double bulge_share = 0.1;         ///< of the particles; the halo has the rest
-    double disc_mass = 4.65;
+    double disc_share = 0.6;          ///< of the particles
+    double bulge_share = 0.06;        ///< of the particles; the halo has the rest
+    double disc_mass = 4;
     double disc_scale_length = 3;
-    double disc_scale_height = 0.3; ///< of a sech^2 profile
-    double toomre_q = 1.3;          ///< at two and a half scale lengths
+    double disc_scale_height = 0.55; ///< of a sech^2 profile
+    double toomre_q = 1.3;           ///< at two and a half scale lengths
     double bulge_mass = 1;
     double bulge_scale_length = 0.6;
-    double halo_mass = 42;
-    double halo_scale_length = 20;
-    double halo_cutoff = 10; ///< in halo scale lengths
+    double halo_mass = 12;
+    double halo_scale_length = 10;
+    double halo_cutoff = 3; ///< in halo scale lengths; the bulge ends there too
 };
 
 /// The encounter of a pair: parabolic relative orbit of the two centres.
@@ -84,7 +85,7 @@ void for_each_field(GalaxySettings& galaxy, Visitor&& visit)
     visit(Field{"halo_mass", "mass", "Mass of the halo inside its cut-off.", 0, 1e30}, galaxy.halo_mass);
     visit(Field{"halo_scale_length", "length", "Scale length of the halo (Hernquist 1990).", 1e-30, 1e30},
           galaxy.halo_scale_length);
-    visit(Field{"halo_cutoff", "scale lengths", "Radius at which the halo ends.", 1, 1000},
+    visit(Field{"halo_cutoff", "scale lengths", "Radius at which halo and bulge end.", 1, 1000},
           galaxy.halo_cutoff);
 }
 
