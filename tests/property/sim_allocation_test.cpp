@@ -1,0 +1,93 @@
+#include <new>
+#include <ostream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.hpp"
+#include "sim/simulation.hpp"
+#include "support/allocation_counter.hpp"
+#include "support/small_scenes.hpp"
+
+// Memory is taken in the commands and emit phases, which provide it for the others, and once a scene has
+// become steady not even there.
+namespace slod::test {
+
+void PrintTo(const SmallScene& scene, std::ostream* out)
+{
+    *out << scene.name;
+}
+
+namespace {
+
+constexpr int thread_count = 4;
+constexpr int warm_up_frames = 200; ///< twelve of the longest lives; the fountains are full after 40
+constexpr int steady_frames = 400;
+
+class AllocationFree : public testing::TestWithParam<SmallScene> {};
+
+std::string name_of(const testing::TestParamInfo<SmallScene>& info)
+{
+    return info.param.name;
+}
+
+/// Options under which a frame's profile has allocations in place of milliseconds.
+Simulation::Options counting_allocations()
+{
+    return {.isa = {}, .tick = [] { return std::int64_t(allocations()) * 1'000'000; }};
+}
+
+TEST_P(AllocationFree, InEveryPhaseOnceSteady)
+{
+    for (const Simulation::Request request : {Simulation::Request{}, {.clusters = true, .conserved = true}}) {
+        SCOPED_TRACE(request.clusters ? "clusters and conserved quantities asked for" : "nothing asked for");
+        ThreadTeam(thread_count).run([&] {
+            Simulation simulation(GetParam().settings, GetParam().initial, {});
+            for (int frame = 0; frame < warm_up_frames; ++frame)
+                simulation.step(request);
+            const std::uint64_t before = allocations();
+            for (int frame = 0; frame < steady_frames; ++frame)
+                simulation.step(request);
+            EXPECT_EQ(allocations(), before);
+        });
+    }
+}
+
+TEST_P(AllocationFree, InAllPhasesButCommandsAndEmitFromTheStart)
+{
+    ThreadTeam(thread_count).run([&] {
+        Simulation simulation(GetParam().settings, GetParam().initial, counting_allocations());
+        for (int frame = 1; frame <= warm_up_frames; ++frame) {
+            StepProfile taken = simulation.step({}).profile;
+            taken[Phase::Commands] = taken[Phase::Emit] = 0;
+            for (std::size_t phase = 0; phase < phase_count; ++phase)
+                EXPECT_EQ(taken.milliseconds[phase], 0) << names(Phase{})[phase] << " in frame " << frame;
+        }
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AllocationFree, testing::ValuesIn(small_scenes()), name_of);
+
+// Lest the other tests count nothing.
+TEST(AllocationCounter, CountsEveryNew)
+{
+    // Called by name: a compiler may leave out the new and delete of an object nobody uses.
+    const auto plain = [] { operator delete(operator new(8)); };
+    const auto array = [] { operator delete[](operator new[](8)); };
+    const auto aligned = [] {
+        constexpr std::align_val_t line{64};
+        operator delete(operator new(8, line), line);
+    };
+    const auto count = [](auto allocate) {
+        const std::uint64_t before = allocations();
+        allocate();
+        return allocations() - before;
+    };
+    EXPECT_EQ(count(plain), 1U);
+    EXPECT_EQ(count(array), 1U);
+    EXPECT_EQ(count(aligned), 1U);
+    EXPECT_GE(count([&] { for_each_task(1000, [&](std::size_t) { plain(); }); }), 1000U);
+}
+
+} // namespace
+} // namespace slod::test

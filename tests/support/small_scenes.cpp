@@ -1,0 +1,142 @@
+#include "support/small_scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/random.hpp"
+
+namespace slod::test {
+namespace {
+
+Vector3d vector_of(const std::array<double, 3>& v)
+{
+    return {v[0], v[1], v[2]};
+}
+
+SmallScene clouds(const std::string& name, Motion motion, double max_cluster_size, std::uint32_t count)
+{
+    SmallScene scene{name, quiet_settings(), {}};
+    scene.settings.motion.motion = motion;
+    scene.settings.motion.longest_life = 16;
+    scene.settings.background.max_cluster_size = max_cluster_size;
+    scene.settings.background.pool_factor = 2;
+    scene.settings.gravity.emplace();
+    add_cloud(scene.initial, {.count = count, .centre = {-1.5, 0.3, 0}, .velocity = {0.5, 0, 0}}, 1);
+    add_cloud(scene.initial, {.count = count, .centre = {1.5, -0.3, 0}, .velocity = {-0.5, 0, 0}}, 2);
+    return scene;
+}
+
+void add_fields(SimulationSettings& settings)
+{
+    settings.uniform_gravity = UniformGravitySettings{{0, 0, -9.81}};
+    settings.linear_drag = LinearDragSettings{0.2};
+    settings.uniform_wind = UniformWindSettings{{1, 0.3, 0}};
+}
+
+/// Three jets, one of them leaning and late, and one that throws more in a frame than fits a cluster.
+void add_jets(SimulationSettings& settings)
+{
+    for (const char* name : {"upright", "leaning", "crowded"})
+        settings.emitters.push_back(jet(name));
+    settings.emitters[1].position = {1, 0, 0};
+    settings.emitters[1].direction = {0.3, 0.1, 1};
+    settings.emitters[1].start = 0.1;
+    settings.emitters[2].position = {-1, 0, 0};
+    settings.emitters[2].rate = 1600;
+}
+
+SmallScene fountain(const std::string& name, Motion motion)
+{
+    SmallScene scene{name, quiet_settings(), {}};
+    scene.settings.motion.motion = motion;
+    scene.settings.background.max_cluster_size = 16;
+    scene.settings.background.max_breadth = 0.4;
+    add_fields(scene.settings);
+    add_jets(scene.settings);
+    return scene;
+}
+
+/// Everything at once: kinds, masses, births, deaths, uniform fields and self-gravity.
+SmallScene mixture()
+{
+    SmallScene scene = clouds("mixture", Motion::Flow, 16, 800);
+    scene.settings.kinds.push_back({"dust", 0.02});
+    add_fields(scene.settings);
+    add_jets(scene.settings);
+    for (EmitterSettings& emitter : scene.settings.emitters)
+        emitter.particle_mass = 1e-4;
+    scene.settings.emitters[1].kind = "dust";
+    return scene;
+}
+
+} // namespace
+
+void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
+{
+    for (std::uint32_t i = 0; i < cloud.count; ++i) {
+        Random random(seed, 0, i);
+        // The mass within r is (r / sqrt(r^2 + scale^2))^3, and the largest of three uniform numbers is
+        // distributed like the cube root of one. Cut off at five scale lengths.
+        const double s = 0.98 * std::max({random.uniform(), random.uniform(), random.uniform()});
+        const double r = cloud.scale * s / std::sqrt(1 - s * s);
+        // The one-dimensional velocity dispersion there.
+        const double sigma = std::sqrt(cloud.mass / (6 * std::sqrt(r * r + cloud.scale * cloud.scale)));
+        Particle particle;
+        particle.position = cloud.centre + r * vector_of(random.direction());
+        for (int axis = 0; axis < 3; ++axis)
+            particle.velocity[axis] = cloud.velocity[axis] + sigma * random.normal();
+        particle.id = particles.size();
+        particle.mass = float(cloud.mass / cloud.count);
+        particle.kind = cloud.kind;
+        particles.push_back(particle);
+    }
+}
+
+SimulationSettings quiet_settings()
+{
+    SimulationSettings settings;
+    settings.units.mass_kg = 1 / 6.67430e-11;
+    settings.time.step = 0.015625;
+    settings.kinds = {{"star", 0.05}};
+    return settings;
+}
+
+EmitterSettings jet(const std::string& name)
+{
+    EmitterSettings emitter;
+    emitter.name = name;
+    emitter.kind = "star";
+    emitter.speed = 4;
+    emitter.speed_spread = 0.1;
+    emitter.cone_angle_deg = 10;
+    emitter.rate = 640;
+    emitter.lifetime = 0.5;
+    return emitter;
+}
+
+std::vector<SmallScene> small_scenes()
+{
+    std::vector<SmallScene> scenes;
+    scenes.push_back(clouds("flow", Motion::Flow, 16, 2000));
+    scenes.push_back(clouds("flow_in_double", Motion::Flow, 16, 1000));
+    scenes.back().settings.gravity->precision = Precision::Double;
+    scenes.push_back(clouds("stream", Motion::Stream, 16, 2000));
+    scenes.push_back(clouds("rigid", Motion::Rigid, 16, 2000));
+    scenes.back().settings.background.max_breadth = 1;
+    scenes.push_back(clouds("unclustered", Motion::Flow, 1, 500));
+    scenes.push_back(fountain("fountain", Motion::Flow));
+    scenes.push_back(fountain("rigid_fountain", Motion::Rigid));
+    scenes.push_back(mixture());
+    return scenes;
+}
+
+SmallScene small_scene(const std::string& name)
+{
+    for (const SmallScene& scene : small_scenes())
+        if (scene.name == name)
+            return scene;
+    throw std::invalid_argument("no small scene " + name);
+}
+
+} // namespace slod::test

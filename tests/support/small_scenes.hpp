@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cluster/particles.hpp"
+#include "sim/settings.hpp"
+
+namespace slod::test {
+
+/// A spherical cloud of particles of one mass, near equilibrium under G = 1.
+struct Cloud {
+    std::uint32_t count = 1;
+    double mass = 1;  ///< of the whole cloud
+    double scale = 1; ///< Plummer's scale length
+    Vector3d centre{0, 0, 0};
+    Vector3d velocity{0, 0, 0};
+    std::uint8_t kind = 0;
+};
+
+/// Appends the cloud's particles; ids go on from the number of particles that are there.
+void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed);
+
+/// Settings with G = 1, one kind "star" of softening 0.05, a step of 1/64 and nothing else.
+SimulationSettings quiet_settings();
+
+/// An emitter of kind "star" at the origin, straight up at speed 4, 640 particles per time that live for
+/// half a unit of time: ten a frame of quiet_settings(), 320 in the air.
+EmitterSettings jet(const std::string& name);
+
+/// A scene small enough to run in many ways.
+struct SmallScene {
+    std::string name;
+    SimulationSettings settings;
+    ParticleSet initial;
+};
+
+/// One scene for every road through the step: motion flow, stream and rigid in self-gravity, unclustered,
+/// in double, a fountain, and a fountain of two kinds falling onto attracting clouds.
+std::vector<SmallScene> small_scenes();
+
+/// The one of that name.
+SmallScene small_scene(const std::string& name);
+
+} // namespace slod::test
