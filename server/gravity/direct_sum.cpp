@@ -14,7 +14,7 @@ constexpr std::size_t target_block = 128; ///< a multiple of the kernels' tile
 constexpr std::size_t source_block = 512;
 static_assert(target_block % simd::tile_width == 0);
 
-/// Powers of two near the system's extent and mass: scaling by them is exact.
+/// Powers of two amid the system's lengths and near its mass: scaling by them is exact.
 struct ScaledUnits {
     double length = 1, mass = 1;
 };
@@ -31,8 +31,12 @@ ScaledUnits units_of(const ForceView& view)
         const auto [lowest, highest] = std::minmax_element(column->begin(), column->end());
         extent = std::max(extent, *highest - *lowest);
     }
-    const double softening = std::sqrt(*std::max_element(view.q.begin(), view.q.end()));
-    return {power_of_two_above(std::max(extent, softening)),
+    const double coarsest = std::max(extent, std::sqrt(*std::max_element(view.q.begin(), view.q.end())));
+    double finest = coarsest;
+    for (const double q : view.q)
+        finest = q > 0 ? std::min(finest, std::sqrt(q)) : finest;
+    // In between, so that neither 1 / r^3 of the nearest nor r^2 of the farthest overflows a float.
+    return {power_of_two_above(std::sqrt(coarsest * std::max(finest, 1e-24 * coarsest))),
             power_of_two_above(std::accumulate(view.mass.begin(), view.mass.end(), 0.0))};
 }
 
@@ -79,14 +83,18 @@ struct alignas(64) Sums {
     }
 };
 
-Vector3d centre_of_block(const ForceView& view, std::size_t first, std::size_t last)
+/// The median of each coordinate: an outlier in the block must not draw the origin away from the others.
+Vector3d middle_of_block(const ForceView& view, std::size_t first, std::size_t last)
 {
-    Vector3d lower = view.position(first), upper = lower;
-    for (std::size_t body = first; body < last; ++body) {
-        lower = lower.cwiseMin(view.position(body));
-        upper = upper.cwiseMax(view.position(body));
-    }
-    return 0.5 * (lower + upper);
+    const auto median = [&](const AlignedVector<double>& column) {
+        std::array<double, target_block> values;
+        const auto end = std::copy(column.begin() + std::ptrdiff_t(first),
+                                   column.begin() + std::ptrdiff_t(last), values.begin());
+        const auto middle = values.begin() + (last - first) / 2;
+        std::nth_element(values.begin(), middle, end);
+        return *middle;
+    };
+    return {median(view.x), median(view.y), median(view.z)};
 }
 
 template <class Real>
@@ -94,7 +102,7 @@ void sum_block(const ForceView& view, const simd::GravityKernels<Real>& kernels,
                double gravitational_constant, std::size_t first, std::size_t last, ClusterTable& clusters)
 {
     const bool tide = clusters.columns.tide;
-    const Vector3d origin = centre_of_block(view, first, last);
+    const Vector3d origin = middle_of_block(view, first, last);
     Bodies<Real, target_block> targets;
     Bodies<Real, source_block> sources;
     Sums<Real> sums;
@@ -161,7 +169,7 @@ double potential_energy(const ForceView& view, const simd::KernelTable& table, d
     const std::size_t count = view.body_count();
     std::vector<double> energies(block_count(count, target_block));
     for_each_block(count, target_block, [&](std::size_t first, std::size_t last) {
-        const Vector3d origin = centre_of_block(view, first, last);
+        const Vector3d origin = middle_of_block(view, first, last);
         Bodies<double, target_block> targets;
         Bodies<double, source_block> sources;
         targets.load(view, first, last, origin, {});
