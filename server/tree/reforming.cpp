@@ -116,6 +116,8 @@ void Reforming::start_lives(SlodTree& tree)
 std::uint64_t Reforming::wanted_life(const SlodTree& tree, const PoolRef& ref) const
 {
     const Pool& pool = tree.pool(ref);
+    if (pool.turn_frame == Pool::no_turn) // holds at most newborns, whose tides are not known yet
+        return motion_.shortest_life;
     if (pool.members == 0)
         return std::max<std::uint64_t>(pool.life(), motion_.shortest_life);
     const ClusterTable& clusters = context_.store.clusters;
@@ -297,7 +299,7 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
         }
         const bool fits = nearest.valid() && nearest_squared <= 4 * clusters.variance[nearest.index] &&
                           clusters.count[nearest.index] < most &&
-                          clusters.stored[nearest.index] < clusters.slab[nearest.index].capacity;
+                          takes_members(context_.store, nearest, context_.frame);
         if (fits) {
             insert_member(context_.store, nearest, stray, context_.frame);
             ++pool.members;

@@ -129,7 +129,13 @@ Cell cell_of(const Subtree& tree, const Vector3d& x)
     // What is farther out shares the cells at the rim.
     constexpr double rim = 1 << 30;
     const auto coordinate = [&](double value) {
-        return std::int32_t(std::clamp(std::floor(value / tree.cell_side), -rim, rim));
+        double cell = std::floor(value / tree.cell_side);
+        // The quotient was rounded; what decides is the box, whose faces are at multiples of the side.
+        if (value < cell * tree.cell_side)
+            --cell;
+        else if (value >= (cell + 1) * tree.cell_side)
+            ++cell;
+        return std::int32_t(std::clamp(cell, -rim, rim));
     };
     return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z())};
 }
@@ -154,9 +160,9 @@ PoolId locate_or_grow(Subtree& tree, const Vector3d& x)
         return found;
     const Cell cell = cell_of(tree, x);
     const NodeId root = take_root(tree);
-    const Vector3d corner = tree.cell_side * Vector3d(cell.x, cell.y, cell.z);
+    const Vector3d corner(cell.x, cell.y, cell.z);
     tree.nodes[root.index] = {};
-    tree.nodes[root.index].box = {corner, corner + Vector3d::Constant(tree.cell_side)};
+    tree.nodes[root.index].box = {tree.cell_side * corner, tree.cell_side * (corner + Vector3d::Ones())};
     tree.cells.insert(cell, root);
     return take_pool(tree, root);
 }
@@ -164,7 +170,8 @@ PoolId locate_or_grow(Subtree& tree, const Vector3d& x)
 bool can_expand(const Subtree& tree, PoolId pool)
 {
     const Node& leaf = tree.nodes[tree.pools[pool.index].node.index];
-    return leaf.depth < deepest && leaf.box.size().maxCoeff() > 1e-9 * tree.cell_side;
+    const double thinnest = std::max(1e-9 * tree.cell_side, 1e-12 * leaf.box.lower.cwiseAbs().maxCoeff());
+    return leaf.depth < deepest && leaf.box.size().maxCoeff() > thinnest;
 }
 
 PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, double position)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,11 @@ struct Pool {
     ClusterSlot first; ///< head of the list of its clusters
     std::uint32_t clusters = 0;
     std::uint32_t members = 0;
-    std::uint32_t phase = 0;      ///< spreads the pools' turns over the frames
-    std::uint64_t turn_frame = 0; ///< when its clusters were formed
-    std::uint64_t due_frame = 0;  ///< when their life ends
+    std::uint32_t phase = 0;            ///< spreads the pools' turns over the frames
+    std::uint64_t turn_frame = no_turn; ///< when its clusters were formed
+    std::uint64_t due_frame = 0;        ///< when their life ends
+
+    static constexpr std::uint64_t no_turn = std::numeric_limits<std::uint64_t>::max(); ///< still to come
 
     std::uint64_t life() const { return due_frame - turn_frame; } ///< frames
 };
@@ -81,7 +84,8 @@ PoolId locate_or_grow(Subtree& tree, const Vector3d& x);
 /// pool itself becomes the left one; the right one is returned, with the same turn.
 PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, double position);
 
-/// Whether a leaf can be divided further: not when it has become too deep or too thin.
+/// Whether a leaf can be divided further: not when it has become too deep, or too thin for its cell or for
+/// the resolution of its coordinates.
 bool can_expand(const Subtree& tree, PoolId pool);
 
 /// Merges the pool's leaf with its sibling while that is a leaf too and both together hold less than
