@@ -1,0 +1,144 @@
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "support/clouds.hpp"
+#include "support/little_worlds.hpp"
+#include "tree/merge_rules.hpp"
+#include "tree/regrouping.hpp"
+
+namespace slod {
+namespace {
+
+constexpr double step = 0.02;
+constexpr std::size_t particle_count = 600;
+const RegionSettings limits{.max_cluster_size = 12,
+                            .max_breadth = 1.0,
+                            .pool_factor = 4,
+                            .speed_ratio = 2,
+                            .angle_deg = 40,
+                            .speed_floor = 0.1};
+
+/// Single particles of different mass in rigid motion, which regrouping may merge.
+class Merging {
+public:
+    explicit Merging(std::uint64_t seed) : world({MapKind::Identity, 0, step}, {}, limits, 1)
+    {
+        ParticleSet particles = test::ball(particle_count, 1.5, 0.5, seed, {0.3, -0.2, 0.1});
+        test::give_masses(particles, 0, 5, seed);
+        for (Particle& particle : particles) {
+            particle.velocity += Vector3d(0.6, 0.3, 0);
+            world.add({particle});
+        }
+    }
+
+    void advance()
+    {
+        ++frame;
+        ClusterTable& clusters = world.store.clusters;
+        for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot)
+            if (clusters.alive(slot))
+                clusters.position[slot] += step * clusters.velocity[slot];
+        world.store.members.recycle(frame);
+        counts = {};
+        regrouping.update(world.tree, frame, counts);
+    }
+
+    test::World world;
+    Regrouping regrouping{true, world.context(0)};
+    UpdateCounts counts;
+    std::uint64_t frame = 0;
+};
+
+void expect_sound(const Merging& merging)
+{
+    const ClusterTable& clusters = merging.world.store.clusters;
+    ASSERT_EQ(problems(merging.world.tree, clusters), Problems{});
+    const ParticleSet all = test::members(merging.world.store, merging.frame);
+    ASSERT_EQ(all.size(), particle_count);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        ASSERT_EQ(all[i].id, i + 1) << "every particle is in exactly one cluster";
+    const Subtree& tree = merging.world.tree.subtrees.front();
+    for (std::uint32_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        if (!clusters.alive(slot))
+            continue;
+        ASSERT_LE(clusters.count[slot], limits.max_cluster_size);
+        const Symmetric3 extent = map_position_moments(clusters.counting_moments(slot), {});
+        ASSERT_LE(breadth(extent, clusters.count[slot]), limits.max_breadth * (1 + 1e-6));
+        ASSERT_EQ(clusters.pool[slot], locate(tree, clusters.position[slot]));
+    }
+}
+
+TEST(Regrouping, KeepsTreeParticlesSizesAndBreadthsInOrder)
+{
+    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+        SCOPED_TRACE(seed);
+        Merging merging(seed);
+        std::uint64_t merges = 0, crossings = 0;
+        for (int frame = 0; frame < 100; ++frame) {
+            merging.advance();
+            merges += merging.counts.merges;
+            crossings += merging.counts.crossings;
+            ASSERT_NO_FATAL_FAILURE(expect_sound(merging)) << "frame " << frame;
+        }
+        EXPECT_GT(merges, 100U);
+        EXPECT_GT(crossings, 100U);
+    }
+}
+
+// Every merger of a frame is one of clusters that by their own state then were allowed to.
+TEST(Regrouping, MergesOnlyWhatMayMerge)
+{
+    Merging merging(3);
+    for (int frame = 0; frame < 60; ++frame) {
+        const ClusterTable before = merging.world.store.clusters;
+        std::map<std::uint64_t, std::uint32_t> slot_of; // by particle
+        for (std::uint32_t slot = 0; slot < before.slot_count(); ++slot)
+            if (before.alive(slot))
+                for (const Particle& member :
+                     test::members(merging.world.store, ClusterSlot{slot}, merging.frame))
+                    slot_of[member.id] = slot;
+        merging.advance();
+        const ClusterTable& after = merging.world.store.clusters;
+        std::uint64_t merged = 0;
+        for (std::uint32_t slot = 0; slot < after.slot_count(); ++slot) {
+            if (!after.alive(slot) || after.formed_frame[slot] != merging.frame)
+                continue;
+            std::set<std::uint32_t> origins;
+            for (const Particle& member :
+                 test::members(merging.world.store, ClusterSlot{slot}, merging.frame))
+                origins.insert(slot_of[member.id]);
+            ASSERT_EQ(origins.size(), 2U) << "nothing is split here";
+            const Vector3d va = before.velocity[*origins.begin()], vb = before.velocity[*origins.rbegin()];
+            const double fast = std::max(va.norm(), vb.norm()), slow = std::min(va.norm(), vb.norm());
+            if (fast > limits.speed_floor) {
+                EXPECT_LE(fast, limits.speed_ratio * slow);
+                EXPECT_GE(va.dot(vb), 0.7660444431 * fast * slow * (1 - 1e-9)); // cos 40
+            }
+            ++merged;
+        }
+        EXPECT_EQ(merged, merging.counts.merges);
+    }
+}
+
+// All that stand still may merge as to speed; once every pool has had its turn nothing is left to do.
+TEST(Regrouping, GoesOnUntilNothingMayMerge)
+{
+    test::World world({MapKind::Identity, 0, step}, {}, limits, 1);
+    for (const Particle& particle : test::ball(200, 1, 0, 1))
+        world.add({particle});
+    Regrouping regrouping(true, world.context(0));
+    UpdateCounts counts;
+    for (std::uint64_t frame = 1; frame <= 400; ++frame)
+        regrouping.update(world.tree, frame, counts);
+    for (const Pool& pool : world.region().pools)
+        for (ClusterSlot a = pool.first; a.valid(); a = world.store.clusters.next[a.index])
+            for (ClusterSlot b = world.store.clusters.next[a.index]; b.valid();
+                 b = world.store.clusters.next[b.index])
+                EXPECT_FALSE(may_merge(world.store, limits, a, b, 400));
+    EXPECT_LT(world.store.clusters.alive_count(), 100U);
+}
+
+} // namespace
+} // namespace slod

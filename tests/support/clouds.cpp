@@ -1,0 +1,65 @@
+#include "support/clouds.hpp"
+
+#include <cmath>
+
+namespace slod::test {
+namespace {
+
+Vector3d vector_of(const std::array<double, 3>& components)
+{
+    return {components[0], components[1], components[2]};
+}
+
+} // namespace
+
+Vector3d point_in_ball(Random& random, double radius)
+{
+    for (;;) {
+        const double x = 2 * random.uniform() - 1;
+        const double y = 2 * random.uniform() - 1;
+        const double z = 2 * random.uniform() - 1;
+        if (const Vector3d point{x, y, z}; point.squaredNorm() <= 1)
+            return radius * point;
+    }
+}
+
+ParticleSet ball(std::size_t count, double radius, double speed, std::uint64_t seed, const Vector3d& centre)
+{
+    ParticleSet particles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Random random(seed, 0, i);
+        particles[i].position = centre + point_in_ball(random, radius);
+        particles[i].velocity = point_in_ball(random, speed);
+        particles[i].id = i + 1;
+        particles[i].mass = 1;
+    }
+    return particles;
+}
+
+ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed)
+{
+    ParticleSet particles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Random random(seed, 0, i);
+        double radius = 0;
+        do // Aarseth, Henon and Wielen 1974, A&A 37, 183: the mass within r is r^3 / (1 + r^2)^(3/2)
+            radius = 1 / std::sqrt(std::pow(random.uniform(), -2.0 / 3.0) - 1);
+        while (radius > 10);
+        const double dispersion = std::sqrt(1 / (6 * std::sqrt(1 + radius * radius)));
+        particles[i].position = radius * vector_of(random.direction());
+        const double vx = random.normal();
+        const double vy = random.normal();
+        particles[i].velocity = dispersion * Vector3d(vx, vy, random.normal());
+        particles[i].id = i + 1;
+        particles[i].mass = 1 / float(count);
+    }
+    return particles;
+}
+
+void give_masses(ParticleSet& particles, double lowest, double highest, std::uint64_t seed)
+{
+    for (Particle& particle : particles)
+        particle.mass = float(lowest + (highest - lowest) * Random(seed, 1, particle.id).uniform());
+}
+
+} // namespace slod::test

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "cluster/particles.hpp"
+#include "core/random.hpp"
+
+/// What several test programs share.
+namespace slod::test {
+
+/// A point uniform in the ball of this radius about the origin.
+Vector3d point_in_ball(Random& random, double radius);
+
+/// `count` particles uniform in a ball about `centre`, with velocities uniform in a ball of radius `speed`.
+/// Ids from 1 on, masses 1.
+ParticleSet ball(std::size_t count, double radius, double speed, std::uint64_t seed,
+                 const Vector3d& centre = Vector3d::Zero());
+
+/// `count` particles of a Plummer sphere with scale length 1 and mass 1 in all, cut at radius 10, with
+/// isotropic velocities of the local dispersion (for G = 1). Ids from 1 on.
+ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed);
+
+/// Masses uniform in [lowest, highest].
+void give_masses(ParticleSet& particles, double lowest, double highest, std::uint64_t seed);
+
+} // namespace slod::test

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include "support/clouds.hpp"
+#include "support/little_worlds.hpp"
+#include "tree/reforming.hpp"
+
+namespace slod {
+namespace {
+
+constexpr RegionSettings region{.max_cluster_size = 16, .pool_factor = 4};
+
+class ReformingTest : public testing::Test {
+protected:
+    test::World world{{MapKind::Full, 0, 0.01}, {}, region, 4};
+    Reforming reforming{{}, world.context(0)};
+    UpdateCounts counts;
+};
+
+// Two balls that will be at the same place then, 0.32 from now: what is together now is not what will be.
+TEST_F(ReformingTest, GroupsMembersByWhereTheyWillBeInTheMiddleOfTheirLife)
+{
+    ParticleSet particles = test::ball(64, 0.9, 0, 1, {2, 2, 2});
+    for (Particle& particle : particles) {
+        const double side = particle.id % 2 == 0 ? 1 : -1;
+        particle.position.x() += side;
+        particle.velocity.x() = -side / 0.32;
+    }
+    reforming.found(world.tree, particles, 0);
+    reforming.reform_all(world.tree, 0, counts); // without a tide a life is 64 frames of 0.01
+    double now = 0, midway = 0;
+    for (std::uint32_t slot = 0; slot < world.store.clusters.slot_count(); ++slot) {
+        if (!world.store.clusters.alive(slot))
+            continue;
+        const double life =
+            double(world.region().pools[world.store.clusters.pool[slot].index].due_frame) * 0.01;
+        for (const Particle& member : test::members(world.store, ClusterSlot{slot}, 0)) {
+            const Vector3d apart = member.position - world.store.clusters.position[slot];
+            const Vector3d later = apart + life / 2 * (member.velocity - world.store.clusters.velocity[slot]);
+            now += apart.squaredNorm();
+            midway += later.squaredNorm();
+        }
+    }
+    EXPECT_LT(4 * midway, now);
+}
+
+TEST_F(ReformingTest, ReformsOnlyPoolsThatAreDue)
+{
+    reforming.found(world.tree, test::ball(1000, 6, 0, 1), 0);
+    Subtree& tree = world.region();
+    for (std::uint32_t pool = 0; pool < tree.pools.size(); ++pool)
+        tree.pools[pool].due_frame = pool % 3 == 0 ? 5 : 9;
+    const ClusterTable& clusters = world.store.clusters;
+    std::vector<std::uint64_t> formation(clusters.formation.begin(), clusters.formation.end());
+    std::vector<PoolId> pool(clusters.pool.begin(), clusters.pool.end());
+    reforming.update(world.tree, 5, counts);
+    std::size_t kept = 0;
+    for (std::size_t slot = 0; slot < formation.size(); ++slot) {
+        if (pool[slot].index % 3 == 0)
+            EXPECT_NE(clusters.formation[slot], formation[slot]);
+        else
+            kept += clusters.formation[slot] == formation[slot] ? 1 : 0;
+    }
+    EXPECT_GT(kept, formation.size() / 3);
+    EXPECT_GT(counts.due_pools, 0U);
+}
+
+TEST_F(ReformingTest, AStrayJoinsTheNearestClusterOfAPoolThatIsNotDue)
+{
+    // Cell 0 is due; one of its particles will be in cell 1, whose clusters are in the midst of their lives.
+    ParticleSet particles = test::ball(12, 0.5, 0, 1, {2, 2, 2});
+    ParticleSet others = test::ball(12, 0.5, 0, 2, {6, 2, 2});
+    for (Particle& other : others)
+        other.id += 100;
+    particles.insert(particles.end(), others.begin(), others.end());
+    particles.front().position = {5.9, 2, 2};
+    particles.front().velocity = {0, 0, 0};
+    reforming.found(world.tree, std::span(particles).subspan(1), 0);
+    const ClusterSlot host = world.region().pools[locate(world.region(), {6, 2, 2}).index].first;
+    world.store.clusters.variance[host.index] = 0.15; // 3/5 of the squared radius
+    const ClusterSlot visitor = world.add({particles.front()});
+    unlink(world.region(), world.store.clusters, visitor);
+    const PoolId due = locate(world.region(), {2, 2, 2});
+    link(world.region(), world.store.clusters, due, visitor);
+    world.region().pools[due.index].due_frame = 1;
+    world.region().pools[locate(world.region(), {6, 2, 2}).index].due_frame = 50;
+    reforming.update(world.tree, 1, counts);
+    EXPECT_EQ(counts.strays_inserted, 1U);
+    EXPECT_EQ(counts.strays_founding, 0U);
+    EXPECT_EQ(world.store.clusters.count[host.index], 13U);
+    EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+}
+
+// As a stray that would stretch it, or finds it full, founds one of its own.
+TEST_F(ReformingTest, AStrayThatNoClusterIsNearFoundsOne)
+{
+    ParticleSet particles = test::ball(24, 0.5, 0, 1, {2, 2, 2});
+    particles.front().position = {7.9, 3.9, 3.9};
+    reforming.found(world.tree, std::span(particles).subspan(1), 0);
+    world.add(test::ball(2, 0.1, 0, 3, {4.2, 0.2, 0.2}));
+    const ClusterSlot visitor = world.add({particles.front()});
+    unlink(world.region(), world.store.clusters, visitor);
+    const PoolId due = locate(world.region(), {2, 2, 2});
+    link(world.region(), world.store.clusters, due, visitor);
+    world.region().pools[due.index].due_frame = 1;
+    const PoolId host = locate(world.region(), {6, 2, 2});
+    world.region().pools[host.index].turn_frame = 0;
+    world.region().pools[host.index].due_frame = 50;
+    reforming.update(world.tree, 1, counts);
+    EXPECT_EQ(counts.strays_inserted, 0U);
+    EXPECT_EQ(counts.strays_founding, 1U);
+    EXPECT_EQ(world.region().pools[host.index].clusters, 2U);
+    EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+}
+
+TEST_F(ReformingTest, APoolOfNewbornsLivesShortlyUntilTheirTidesAreKnown)
+{
+    world.add(test::ball(5, 0.5, 0, 1, {2, 2, 2}), 7);
+    reforming.update(world.tree, 8, counts);
+    const Pool& pool = world.region().pools[locate(world.region(), {2, 2, 2}).index];
+    EXPECT_EQ(pool.turn_frame, 8U);
+    EXPECT_LE(pool.life(), 3U); // the shortest is 2, and ends at its multiples
+}
+
+TEST_F(ReformingTest, ClustersAreFormedWithRoomForStrays)
+{
+    reforming.found(world.tree, test::ball(1000, 3, 0, 1), 0);
+    const ClusterTable& clusters = world.store.clusters;
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        EXPECT_LE(clusters.count[slot], 12U); // three quarters of 16
+        EXPECT_GE(clusters.slab[slot].capacity, clusters.count[slot] + 4);
+    }
+}
+
+} // namespace
+} // namespace slod
