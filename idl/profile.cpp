@@ -34,9 +34,8 @@ std::string configuration(Profile profile)
 std::string configuration_source(Profile profile)
 {
     if (from_user().empty())
-        return "DDS profile " + std::string(names(profile)[std::size_t(profile)]);
-    return std::string(user_configuration) +
-           " is set and replaces the DDS profile: " + std::string(from_user());
+        return "profile " + std::string(names(profile)[std::size_t(profile)]);
+    return std::string(user_configuration) + " instead of a profile";
 }
 
 std::optional<std::uint64_t> receive_buffer_limit()

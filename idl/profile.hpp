@@ -23,7 +23,7 @@ std::string_view built_in_configuration(Profile profile);
 /// empty, as in any program that uses Cyclone DDS, otherwise the profile.
 std::string configuration(Profile profile);
 
-/// One sentence for the log: what configuration(profile) comes from.
+/// For logs and messages: where configuration(profile) comes from.
 std::string configuration_source(Profile profile);
 
 /// Largest receive buffer that the kernel grants a socket [bytes]; empty when it does not say.

@@ -51,8 +51,8 @@ Status Connection::status() const
     const Clock::time_point now = Clock::now();
     if (watch_.server())
         return watch_.status(now);
-    const std::string where = " on domain " + std::to_string(domain_) + " (" +
-                              std::string(names(profile_)[std::size_t(profile_)]) + ")";
+    const std::string where =
+        " on domain " + std::to_string(domain_) + " (" + wire::configuration_source(profile_) + ")";
     if (state_reader_.misfits() > 0)
         return {Contact::NoServer, "the server" + where + " speaks another version of the protocol"};
     return {Contact::NoServer, "no server was heard" + where};

@@ -40,7 +40,7 @@ StreamMeter::Report StreamMeter::report(Clock::time_point now) const
     std::array<double, remembered> latencies;
     std::size_t count = 0;
     std::size_t window_bytes = 0;
-    Clock::time_point first = now;
+    Clock::time_point first{}, last{};
     for (; count < std::min<std::uint64_t>(received_, remembered); ++count) {
         const Arrival& arrival = arrivals_[(received_ - 1 - count) % remembered];
         if (arrival.when < now - window)
@@ -48,12 +48,13 @@ StreamMeter::Report StreamMeter::report(Clock::time_point now) const
         latencies[count] = arrival.latency_ms;
         window_bytes += arrival.bytes;
         first = arrival.when;
+        last = std::max(last, arrival.when);
     }
     const std::span<double> sorted(latencies.data(), count);
     std::sort(sorted.begin(), sorted.end());
     report.latency_p50_ms = percentile(sorted, 0.5);
     report.latency_p99_ms = percentile(sorted, 0.99);
-    const double seconds = std::chrono::duration<double>(now - first).count();
+    const double seconds = std::chrono::duration<double>(last - first).count();
     if (count > 1 && seconds > 0) {
         report.rate_hz = double(count - 1) / seconds;
         report.bytes_per_s = report.rate_hz * double(window_bytes) / double(count);

@@ -45,8 +45,8 @@ void flatten(const std::string& prefix, const Json& object, Fields& fields)
         const std::string path = prefix.empty() ? name : prefix + "." + name;
         if (value.is_object())
             flatten(path, value, fields);
-        else
-            fields.emplace_back(path, text_of(value));
+        else if (std::string text = text_of(value); !text.empty())
+            fields.emplace_back(path, std::move(text));
     }
 }
 

@@ -68,6 +68,7 @@ TEST_F(WirePublish, AClientReadsTheClustersThatWereOffered)
     ASSERT_EQ(received.regions.size(), 1U);
     const client::RegionClusters& region = received.regions[0];
     EXPECT_EQ(region.region, "background");
+    EXPECT_EQ(region.time, offered.time);
     ASSERT_EQ(region.mass.size(), cluster_count);
     for (std::size_t i = 0; i < cluster_count; ++i) {
         EXPECT_EQ(region.mass[i], float(offered.clusters.mass[i]));

@@ -204,9 +204,10 @@ TEST(WireClientFrames, AnotherSessionBeginsWithNothing)
     FrameAssembler frames;
     frames.on_clusters(RegionSample("a", 5).message);
     frames.on_manifest(Manifest({"a"}, 5).message);
+    frames.on_clusters(RegionSample("a", 6).message);
     frames.reset();
     EXPECT_EQ(frames.newest(), nullptr);
-    frames.on_manifest(Manifest({"a"}, 5).message);
+    frames.on_manifest(Manifest({"a"}, 6).message);
     EXPECT_EQ(frames.newest(), nullptr);
 }
 

@@ -105,6 +105,24 @@ TEST(WireEncoding, SamplesAreNumberedFromOne)
     EXPECT_EQ(encoder.encode(snapshot.clusters, {}, 10).serial, 2U);
 }
 
+// Buffers grow to the largest frame and stay: a steady scene allocates nothing.
+TEST(WireEncoding, ASmallerFrameReusesTheMemoryOfALargerOne)
+{
+    const ClusterStates large = made_up_clusters(500, 1);
+    const ClusterStates small = made_up_clusters(400, 2);
+    ClustersEncoder clusters(session, "background", 0);
+    OverviewEncoder overview(session);
+    const wire::Clusters clusters_before = clusters.encode(large, {}, 1000);
+    const wire::Overview overview_before = overview.encode(large, {}, 100);
+    const wire::Clusters& clusters_after = clusters.encode(small, {}, 1000);
+    const wire::Overview& overview_after = overview.encode(small, {}, 90);
+    EXPECT_EQ(clusters_after.position._buffer, clusters_before.position._buffer);
+    EXPECT_EQ(clusters_after.covariance._buffer, clusters_before.covariance._buffer);
+    EXPECT_EQ(clusters_after.formation._buffer, clusters_before.formation._buffer);
+    EXPECT_EQ(overview_after.position._buffer, overview_before.position._buffer);
+    EXPECT_EQ(overview_after.radius._buffer, overview_before.radius._buffer);
+}
+
 TEST(WireEncoding, StatisticsHaveEveryPhaseAndEveryCount)
 {
     const Snapshot snapshot = made_up_snapshot(17, 40);
