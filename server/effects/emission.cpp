@@ -3,9 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace slod {
+namespace {
+
+/// Of the newborns that the keys name.
+double mean_age(std::span<const DivisionKey> keys, std::span<const Newborn> newborns)
+{
+    double sum = 0;
+    for (const DivisionKey& key : keys)
+        sum += newborns[key.index].age;
+    return sum / double(keys.size());
+}
+
+} // namespace
 
 Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life)
     : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), cohorts_(emitters_.size())
@@ -34,6 +47,8 @@ std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const Update
     if (!cohort.slot.valid() || !clusters.alive(slot) || clusters.generation[slot] != cohort.generation)
         return 0;
     const PoolRef pool{clusters.region[slot], clusters.pool[slot]};
+    if (!takes_members(context.store, cohort.slot, context.frame))
+        return 0;
     const std::uint32_t most = std::min(tree.of(pool).max_cluster_size(), clusters.slab[slot].capacity);
     const std::size_t room = most - std::min(most, clusters.stored[slot]);
     const std::size_t joining = std::min(newborns_.size(), room);
@@ -57,12 +72,10 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     const double ahead = std::isfinite(lifetime) ? 0.5 * lifetime : mid_life_;
     grouping_.clear();
     grouping_.resize(count);
-    double age = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Newborn& born = newborns_[first + i];
         grouping_.particles[i] = born.particle;
         grouping_.place[i] = born.particle.position + ahead * born.particle.velocity;
-        age += born.age / count;
     }
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
     const std::uint16_t region = tree.region_at(grouping_.particles.front().position);
@@ -72,10 +85,15 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     grouping_.groups.push_back(
         {.pool = {region, {}}, .count = count, .clusters = parts, .spare_rows = open ? most - count : 0});
     form_groups(grouping_, context);
-    for (const ClusterSlot slot : grouping_.slots) {
+    const std::span<const DivisionKey> keys(grouping_.keys);
+    for (std::uint32_t part = 0; part < parts; ++part) {
+        const ClusterSlot slot = grouping_.slots[part];
         const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
         link(tree.of(pool), clusters, pool.pool, slot);
-        new_clusters_.push_back({slot, age});
+        const std::uint32_t begin = part_begin(count, parts, part);
+        const std::span<const Newborn> founders = std::span(newborns_).subspan(first);
+        new_clusters_.push_back(
+            {clusters.id(slot.index), mean_age(keys.subspan(begin, clusters.count[slot.index]), founders)});
     }
     cohorts_[emitter] = open ? clusters.id(grouping_.slots.front().index) : ClusterId{};
 }

@@ -19,7 +19,7 @@ public:
 
     /// A cluster formed in this frame, and the mean age of its members at the frame's end.
     struct NewCluster {
-        ClusterSlot slot;
+        ClusterId id;
         double age;
     };
 

@@ -13,7 +13,8 @@
 namespace slod {
 
 Emitter::Emitter(const EmitterSettings& settings, std::uint32_t index, std::uint8_t kind, std::uint64_t seed)
-    : settings_(settings), index_(index), kind_(kind), seed_(seed), axis_(settings.direction.normalized()),
+    : settings_(settings), index_(index), kind_(kind), seed_(seed),
+      axis_(settings.direction.stableNormalized()),
       cone_cosine_(portable_sincos(settings.cone_angle_deg * std::numbers::pi / 180).cosine)
 {
     int flattest = 0;

@@ -131,9 +131,11 @@ void Simulation::State::kick()
 void Simulation::State::close_kick()
 {
     kick_clusters(store.clusters, 0.5 * settings.time.step);
-    for (const Emission::NewCluster& born : emission.new_clusters())
-        if (store.clusters.alive(born.slot.index) && store.clusters.formed_frame[born.slot.index] == frame)
-            kick_cluster(store.clusters, born.slot.index, born.age - 0.5 * settings.time.step);
+    for (const Emission::NewCluster& born : emission.new_clusters()) {
+        const std::size_t slot = born.id.slot.index;
+        if (store.clusters.alive(slot) && store.clusters.id(slot) == born.id) // else re-formed already
+            kick_cluster(store.clusters, slot, born.age - 0.5 * settings.time.step);
+    }
 }
 
 void Simulation::State::propagate()
