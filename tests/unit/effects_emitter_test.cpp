@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "effects/emitter.hpp"
+
+namespace slod {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double step = 0.02;
+
+EmitterSettings jet()
+{
+    return {.name = "jet",
+            .kind = "water",
+            .position = {1, 2, 3},
+            .direction = {1, 1, 4},
+            .speed = 5,
+            .speed_spread = 0.2,
+            .cone_angle_deg = 25,
+            .rate = 333};
+}
+
+Emitter emitter_of(const EmitterSettings& settings)
+{
+    return Emitter(settings, 2, 1, 99);
+}
+
+/// Frames [1, frames], each newborn as it is at its frame's end.
+std::vector<Newborn> emit(const Emitter& emitter, std::uint64_t frames, double frame_length = step,
+                          const UniformFields& fields = {})
+{
+    std::vector<Newborn> all;
+    for (std::uint64_t frame = 1; frame <= frames; ++frame)
+        emitter.emit(frame, frame_length, fields, all);
+    return all;
+}
+
+TEST(Emitter, AFractionalRateIsMetToOneParticleAtEveryTime)
+{
+    for (const double per_frame : {0.3, 0.001, 1.0, 7.7, 1234.5}) {
+        EmitterSettings settings = jet();
+        settings.rate = per_frame / step;
+        const Emitter emitter = emitter_of(settings);
+        std::vector<Newborn> all;
+        for (std::uint64_t frame = 1; frame <= 200; ++frame) {
+            emitter.emit(frame, step, {}, all);
+            ASSERT_LE(std::abs(double(all.size()) - per_frame * double(frame)), 1) << "frame " << frame;
+            ASSERT_EQ(all.size(), emitter.count_before(double(frame) * step));
+        }
+    }
+}
+
+TEST(Emitter, TheFirstParticleStartsAtTheStartAndTheLastBeforeTheStop)
+{
+    EmitterSettings settings = jet();
+    settings.rate = 10;
+    settings.start = 1;
+    settings.stop = 2;
+    const Emitter emitter = emitter_of(settings);
+    EXPECT_EQ(emitter.count_before(0.5), 0U);
+    EXPECT_EQ(emitter.count_before(1), 0U);
+    EXPECT_EQ(emitter.count_before(1.01), 1U);
+    EXPECT_EQ(emitter.count_before(1.1001), 2U);
+    EXPECT_EQ(emitter.count_before(2), 10U);
+    EXPECT_EQ(emitter.count_before(1e9), 10U);
+    settings.stop = 0.5;
+    EXPECT_EQ(emitter_of(settings).count_before(10), 0U);
+}
+
+TEST(Emitter, WithoutARateNothingIsEmitted)
+{
+    EmitterSettings settings = jet();
+    settings.rate = 0;
+    EXPECT_TRUE(emit(emitter_of(settings), 100).empty());
+}
+
+TEST(Emitter, IdsAreUniqueToTheEmitterAndInOrderOfBirth)
+{
+    const std::vector<Newborn> all = emit(emitter_of(jet()), 100);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        ASSERT_EQ(all[k].particle.id, (3ULL << Emitter::id_shift) + k);
+    EXPECT_GT(all.size(), 600U);
+}
+
+TEST(Emitter, ParticlesHaveTheSettingsMassAndKind)
+{
+    EmitterSettings settings = jet();
+    settings.particle_mass = 0.25;
+    for (const Newborn& born : emit(emitter_of(settings), 10)) {
+        EXPECT_EQ(born.particle.mass, 0.25F);
+        EXPECT_EQ(born.particle.kind, 1);
+        EXPECT_EQ(born.particle.expiry_frame, Particle::never);
+    }
+}
+
+// Without a field a particle keeps its velocity, and is back at the emitter its age before the frame's end.
+TEST(Emitter, ParticlesAreTheSameWhateverTheFrameLength)
+{
+    const Emitter emitter = emitter_of(jet());
+    std::map<std::uint64_t, Particle> expected;
+    for (const Newborn& born : emit(emitter, 300))
+        expected[born.particle.id] = born.particle;
+    for (const double length : {step / 7, step * 3, step * 100}) {
+        const std::vector<Newborn> all =
+            emit(emitter, std::uint64_t(std::lround(300 * step / length)), length);
+        ASSERT_NEAR(double(all.size()), double(expected.size()), 1);
+        for (const Newborn& born : all) {
+            if (!expected.contains(born.particle.id))
+                continue;
+            ASSERT_EQ(born.particle.velocity, expected[born.particle.id].velocity);
+            const Vector3d origin = born.particle.position - born.age * born.particle.velocity;
+            ASSERT_LE((origin - Vector3d(1, 2, 3)).norm(), 1e-14);
+        }
+    }
+}
+
+TEST(Emitter, AgesAreTheTimesSinceTheEvenlySpacedStarts)
+{
+    for (const auto& born : emit(emitter_of(jet()), 50)) {
+        const std::uint64_t k = born.particle.id & ((1ULL << Emitter::id_shift) - 1);
+        const double start = double(k) / 333;
+        const double end = std::ceil(start / step + 1e-9) * step;
+        EXPECT_NEAR(born.age, k == 0 ? step : end - start, 1e-13) << k;
+        EXPECT_LE(born.age, step * (1 + 1e-12));
+        EXPECT_GE(born.age, 0);
+    }
+}
+
+TEST(Emitter, NewbornsFollowTheFieldsFromTheirStartToTheFramesEnd)
+{
+    UniformFields fields;
+    fields.gravity = {0, 0, -9.81};
+    fields.drag = 0.7;
+    fields.wind = {2, 0, 0};
+    const std::vector<Newborn> free = emit(emitter_of(jet()), 20);
+    const std::vector<Newborn> blown = emit(emitter_of(jet()), 20, step, fields);
+    ASSERT_EQ(free.size(), blown.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const double t = free[i].age, k = 0.7;
+        const double decay = std::exp(-k * t), drift = (1 - decay) / k;
+        const Vector3d v0 = free[i].particle.velocity, terminal = fields.wind + fields.gravity / k;
+        const Vector3d v = terminal + decay * (v0 - terminal);
+        const Vector3d x = Vector3d(1, 2, 3) + t * terminal + drift * (v0 - terminal);
+        ASSERT_LE((blown[i].particle.velocity - v).norm(), 1e-13);
+        ASSERT_LE((blown[i].particle.position - x).norm(), 1e-14 / k * 10);
+    }
+}
+
+// Uniform on a cone's cap: the cosine to the axis is uniform in [cos angle, 1], the sine has no direction.
+TEST(Emitter, DirectionsAreUniformInTheCone)
+{
+    for (const double angle : {10.0, 90.0, 180.0}) {
+        EmitterSettings settings = jet();
+        settings.cone_angle_deg = angle;
+        settings.speed_spread = 0;
+        settings.rate = 1e6;
+        const std::vector<Newborn> all = emit(emitter_of(settings), 5); // 100,000
+        const Vector3d axis = Vector3d(1, 1, 4).normalized();
+        const double lowest = std::cos(angle * std::numbers::pi / 180);
+        double mean = 0, square = 0;
+        Vector3d across{0, 0, 0};
+        for (const Newborn& born : all) {
+            ASSERT_NEAR(born.particle.velocity.norm(), 5, 1e-14);
+            const double cosine = born.particle.velocity.dot(axis) / 5;
+            ASSERT_GE(cosine, lowest - 1e-15);
+            mean += cosine / double(all.size());
+            square += cosine * cosine / double(all.size());
+            across += (born.particle.velocity / 5 - cosine * axis) / double(all.size());
+        }
+        const double width = 1 - lowest;
+        const double sigma = 5 / std::sqrt(double(all.size())); // five standard errors of unit variance
+        EXPECT_NEAR(mean, (1 + lowest) / 2, sigma * width / std::sqrt(12.0)) << angle;
+        EXPECT_NEAR(square - mean * mean, width * width / 12, sigma * width * width / 12) << angle;
+        EXPECT_LE(across.norm(), sigma) << angle;
+    }
+}
+
+TEST(Emitter, SpeedsAreUniformWithinTheSpread)
+{
+    EmitterSettings settings = jet();
+    settings.rate = 1e6;
+    const std::vector<Newborn> all = emit(emitter_of(settings), 5);
+    double mean = 0, square = 0;
+    for (const Newborn& born : all) {
+        const double speed = born.particle.velocity.norm();
+        ASSERT_GE(speed, 4 - 1e-14);
+        ASSERT_LE(speed, 6 + 1e-14);
+        mean += speed / double(all.size());
+        square += (speed - 5) * (speed - 5) / double(all.size());
+    }
+    const double sigma = 5 / std::sqrt(double(all.size()));
+    EXPECT_NEAR(mean, 5, sigma * 2 / std::sqrt(12.0));
+    EXPECT_NEAR(square, 4.0 / 12, sigma * std::sqrt(4.0 / 45)); // of a square of a uniform number in [-1, 1]
+}
+
+TEST(Emitter, OnlyTheDirectionOfTheDirectionCounts)
+{
+    EmitterSettings settings = jet();
+    settings.cone_angle_deg = 0;
+    settings.speed_spread = 0;
+    for (const double length : {1e-200, 1e-9, 1.0, 1e9, 1e200}) {
+        settings.direction = length * Vector3d(0, 3, 4);
+        const Newborn first = emit(emitter_of(settings), 1).front();
+        EXPECT_LE((first.particle.velocity - Vector3d(0, 3, 4)).norm(), 1e-14) << length;
+    }
+}
+
+TEST(Emitter, AParticleIsThereAtTheFramesEndsWithinItsLifetime)
+{
+    for (const double lifetime : {0.0, 0.001, step / 2, step, 3.3 * step, 1000.0, infinity}) {
+        EmitterSettings settings = jet();
+        settings.lifetime = lifetime;
+        settings.start = 0.0137;
+        std::size_t started = 0;
+        for (std::uint64_t frame = 1; frame <= 50; ++frame) {
+            std::vector<Newborn> all;
+            emitter_of(settings).emit(frame, step, {}, all);
+            started += all.size();
+            for (const Newborn& born : all) {
+                const double death = double(frame) * step - born.age + lifetime;
+                ASSERT_GT(born.particle.expiry_frame, frame) << "born dead";
+                if (lifetime == infinity) {
+                    ASSERT_EQ(born.particle.expiry_frame, Particle::never);
+                    continue;
+                }
+                // The last frame's end that it lives to see is the one before it expires.
+                ASSERT_GE(double(born.particle.expiry_frame) * step, death - 1e-9);
+                ASSERT_LE(double(born.particle.expiry_frame - 1) * step, death + 1e-9);
+            }
+        }
+        EXPECT_EQ(started == 0, lifetime == 0) << lifetime;
+    }
+}
+
+TEST(Emitter, SeedsAndPlacesInTheSceneGiveDifferentParticles)
+{
+    const auto first = [](std::uint32_t index, std::uint64_t seed) {
+        return emit(Emitter(jet(), index, 1, seed), 1).front().particle;
+    };
+    EXPECT_EQ(first(2, 99).velocity, first(2, 99).velocity);
+    EXPECT_NE(first(2, 99).velocity, first(3, 99).velocity);
+    EXPECT_NE(first(2, 99).velocity, first(2, 98).velocity);
+    EXPECT_NE(first(2, 99).id, first(3, 99).id);
+}
+
+} // namespace
+} // namespace slod
