@@ -1,0 +1,201 @@
+#include "scene_support.hpp"
+
+#include "scene/scene_check.hpp"
+
+namespace slod::test {
+
+namespace {
+
+/// A simulation without problems.
+SimulationSettings sound()
+{
+    SimulationSettings settings;
+    settings.kinds = {{"star", 0}, {"dust", 0}};
+    settings.emitters.resize(2);
+    settings.emitters[0].name = "a";
+    settings.emitters[0].kind = "star";
+    settings.emitters[1].name = "b";
+    settings.emitters[1].kind = "dust";
+    return settings;
+}
+
+/// A scene that starts from `model` without problems.
+Scene starting_with(InitialModel model)
+{
+    Scene scene;
+    scene.simulation.kinds = {{"disc", 0}, {"bulge", 0}, {"halo", 0}};
+    scene.initial.model = model;
+    scene.galaxy = {.particles = 1000, .disc_share = 0.5, .bulge_share = 0.1};
+    scene.galaxy.bulge_mass = 1;
+    scene.galaxy.halo_mass = 42;
+    return scene;
+}
+
+TEST(SimulationSettings, ASoundSetHasNoProblems)
+{
+    EXPECT_TRUE(problems(sound()).empty()) << problems(sound()).front();
+}
+
+TEST(SimulationSettings, NeedAKind)
+{
+    SimulationSettings settings;
+    EXPECT_TRUE(only_says(problems(settings), {"kind is missing: add a [[kind]]"}));
+}
+
+TEST(SimulationSettings, HaveAtMostAsManyKindsAsAByteCounts)
+{
+    SimulationSettings settings;
+    for (int i = 0; i < 256; ++i)
+        settings.kinds.push_back({"k" + std::to_string(i), 0});
+    EXPECT_TRUE(problems(settings).empty());
+    settings.kinds.push_back({"k256", 0});
+    EXPECT_TRUE(only_says(problems(settings), {"kind appears 257 times", "at most 256"}));
+}
+
+TEST(SimulationSettings, RefuseNamesWithOtherLettersOrLengths)
+{
+    for (const std::string name :
+         {"", "Star", "a b", "st\xc3\xa4r", "a.b", "123456789012345678901234567890123"}) {
+        SimulationSettings settings = sound();
+        settings.kinds.push_back({name, 0});
+        EXPECT_TRUE(
+            only_says(problems(settings), {"kind.2.name = \"" + name + "\" is no name; use 1 to 32"}));
+    }
+    for (const std::string name : {"a", "0", "_", "-", "12345678901234567890123456789012"}) {
+        SimulationSettings settings = sound();
+        settings.kinds.push_back({name, 0});
+        EXPECT_TRUE(problems(settings).empty()) << name;
+    }
+    SimulationSettings settings = sound();
+    settings.emitters[1].name = "B";
+    EXPECT_TRUE(only_says(problems(settings), {"emitter.1.name = \"B\" is no name"}));
+}
+
+TEST(SimulationSettings, RefuseANameTwice)
+{
+    SimulationSettings settings = sound();
+    settings.kinds.push_back({"star", 0});
+    settings.emitters[1].name = "a";
+    const Problems found = problems(settings);
+    EXPECT_EQ(found.size(), 2U);
+    EXPECT_TRUE(one_says(found, {"kind.2.name = \"star\" is the name of kind.0 too"}));
+    EXPECT_TRUE(one_says(found, {"emitter.1.name = \"a\" is the name of emitter.0 too"}));
+}
+
+TEST(SimulationSettings, RefuseAnEmitterOfAnUnknownKind)
+{
+    SimulationSettings settings = sound();
+    settings.emitters[1].kind = "water";
+    EXPECT_TRUE(only_says(problems(settings),
+                          {"emitter.1.kind = \"water\" is no kind of the scene; its kinds are star, dust."}));
+}
+
+TEST(SimulationSettings, RefuseADirectionWithoutUsableLength)
+{
+    for (const Vector3d& direction : {Vector3d(0, 0, 0), Vector3d(1e-200, 0, 0), Vector3d(0, 1e200, 0)}) {
+        SimulationSettings settings = sound();
+        settings.emitters[0].direction = direction;
+        EXPECT_TRUE(only_says(problems(settings), {"emitter.0.direction has no usable length"})) << direction;
+    }
+}
+
+TEST(SimulationSettings, RefuseLivesThatAreNoPowersOfTwo)
+{
+    SimulationSettings settings = sound();
+    settings.motion.shortest_life = 3;
+    settings.motion.longest_life = 100;
+    const Problems found = problems(settings);
+    EXPECT_EQ(found.size(), 2U);
+    EXPECT_TRUE(one_says(found, {"motion.shortest_life = 3 is no power of two; use 2."}));
+    EXPECT_TRUE(one_says(found, {"motion.longest_life = 100 is no power of two; use 64."}));
+}
+
+TEST(SimulationSettings, RefuseAShortestLifeLongerThanTheLongest)
+{
+    SimulationSettings settings = sound();
+    settings.motion.shortest_life = 128;
+    EXPECT_TRUE(only_says(problems(settings),
+                          {"motion.shortest_life = 128 is longer than motion.longest_life = 64"}));
+    settings.motion.longest_life = 128;
+    EXPECT_TRUE(problems(settings).empty()) << "equal lives are one fixed life";
+}
+
+TEST(SimulationSettings, RefuseWindWithoutDrag)
+{
+    SimulationSettings settings = sound();
+    settings.uniform_wind.emplace();
+    EXPECT_TRUE(
+        only_says(problems(settings), {"uniform_wind acts through the air's drag", "add [linear_drag]"}));
+    settings.linear_drag.emplace();
+    EXPECT_TRUE(problems(settings).empty());
+}
+
+TEST(SceneCheck, IncludesTheSimulations)
+{
+    Scene scene = starting_with(InitialModel::Galaxy);
+    scene.simulation.motion.longest_life = 3;
+    EXPECT_TRUE(one_says(problems(scene), {"motion.longest_life = 3 is no power of two"}));
+}
+
+TEST(SceneCheck, AStartWithoutParticlesNeedsAFiniteBreadth)
+{
+    Scene scene = starting_with(InitialModel::None);
+    EXPECT_TRUE(only_says(problems(scene), {"background.max_breadth = inf", "set it to a length"}));
+    scene.simulation.background.max_breadth = 2;
+    EXPECT_TRUE(problems(scene).empty());
+    EXPECT_TRUE(problems(starting_with(InitialModel::Galaxy)).empty());
+}
+
+TEST(SceneCheck, AGalaxyNeedsAKindForEachComponentThatHasMass)
+{
+    Scene scene = starting_with(InitialModel::Galaxy);
+    scene.simulation.kinds = {{"disc", 0}, {"halo", 0}};
+    EXPECT_TRUE(only_says(problems(scene), {"galaxy.bulge_mass = 1.0 needs a kind", "name = \"bulge\""}));
+    scene.galaxy.bulge_mass = 0;
+    EXPECT_TRUE(problems(scene).empty());
+}
+
+TEST(SceneCheck, AGalaxysMassNeedsParticlesToCarryIt)
+{
+    Scene scene = starting_with(InitialModel::Galaxy);
+    scene.galaxy.bulge_share = 0;
+    EXPECT_TRUE(only_says(problems(scene), {"galaxy.bulge_mass = 1.0 has no particle to carry it"}));
+    scene.galaxy.bulge_share = 0.6;
+    EXPECT_TRUE(only_says(problems(scene), {"galaxy.halo_mass = 42.0 has no particle to carry it"}))
+        << "disc and bulge together have more than all particles";
+    scene.galaxy.bulge_share = 0.5;
+    scene.galaxy.halo_mass = 0;
+    EXPECT_TRUE(problems(scene).empty());
+}
+
+TEST(SceneCheck, AGalaxyThatIsNotGeneratedIsNotChecked)
+{
+    Scene scene = starting_with(InitialModel::Gadget2);
+    scene.simulation.kinds = {{"star", 0}};
+    EXPECT_TRUE(problems(scene).empty());
+    scene.initial.fallback = InitialModel::Galaxy;
+    EXPECT_EQ(problems(scene).size(), 3U) << "its fallback is";
+}
+
+TEST(SceneCheck, AnEncounterStartsApartAndFartherThanItsPericentre)
+{
+    Scene scene = starting_with(InitialModel::GalaxyPair);
+    EXPECT_TRUE(problems(scene).empty());
+    scene.encounter = {.separation = 5, .pericentre = 8};
+    EXPECT_TRUE(
+        only_says(problems(scene), {"encounter.pericentre = 8.0 is larger than encounter.separation = 5.0"}));
+    scene.encounter = {.separation = 0, .pericentre = 0};
+    EXPECT_TRUE(only_says(problems(scene), {"encounter.separation = 0.0"}));
+}
+
+TEST(SceneCheck, AFileIsNoFallbackForAFile)
+{
+    Scene scene = starting_with(InitialModel::Gadget2);
+    scene.initial.fallback = InitialModel::Gadget2;
+    EXPECT_TRUE(
+        only_says(problems(scene), {"initial.fallback = \"gadget2\"", "use none, galaxy or galaxy_pair"}));
+}
+
+} // namespace
+
+} // namespace slod::test

@@ -1,0 +1,151 @@
+#include "scene_support.hpp"
+
+#include "scene/sections.hpp"
+#include "scene/value_text.hpp"
+
+namespace slod::test {
+
+namespace {
+
+const std::string two_of_each = minimal_scene + "[[kind]]\nname = \"dust\"\n"
+                                                "[[emitter]]\nname = \"a\"\nkind = \"star\"\n"
+                                                "[[emitter]]\nname = \"b\"\nkind = \"dust\"\n";
+
+TEST(SceneOverride, ReplacesWhatTheFileSays)
+{
+    const Scene scene = scene_of("title = \"old\"\n" + minimal_scene + "[time]\nstep = 1\n",
+                                 {"time.step=0.5", "title=\"new\"", "seed=7"});
+    EXPECT_EQ(scene.simulation.time.step, 0.5);
+    EXPECT_EQ(scene.title, "new");
+    EXPECT_EQ(scene.simulation.seed, 7U);
+}
+
+TEST(SceneOverride, TheLastOfAKeyHolds)
+{
+    EXPECT_EQ(scene_of(minimal_scene, {"seed=7", "seed=8"}).simulation.seed, 8U);
+}
+
+TEST(SceneOverride, LeavesTheRestOfItsTableAlone)
+{
+    const Scene scene = scene_of(minimal_scene + "[motion]\nclock = 0.5\n", {"motion.longest_life=128"});
+    EXPECT_EQ(scene.simulation.motion.clock, 0.5);
+    EXPECT_EQ(scene.simulation.motion.longest_life, 128U);
+}
+
+TEST(SceneOverride, ReachesOneElementOfAnArray)
+{
+    const Scene scene =
+        scene_of(two_of_each, {"emitter.0.rate=5", "emitter.1.rate=6", "kind.1.softening=0.25"});
+    EXPECT_EQ(scene.simulation.emitters.at(0).rate, 5);
+    EXPECT_EQ(scene.simulation.emitters.at(1).rate, 6);
+    EXPECT_EQ(scene.simulation.kinds.at(0).softening, 0);
+    EXPECT_EQ(scene.simulation.kinds.at(1).softening, 0.25);
+}
+
+TEST(SceneOverride, SwitchesAnAbsentEffectOn)
+{
+    const Scene scene = scene_of(minimal_scene, {"gravity.precision=double", "gravity.closure=false"});
+    ASSERT_TRUE(scene.simulation.gravity);
+    EXPECT_EQ(scene.simulation.gravity->precision, Precision::Double);
+    EXPECT_FALSE(scene.simulation.gravity->closure);
+}
+
+TEST(SceneOverride, ABareWordIsAString)
+{
+    const Scene scene =
+        scene_of(minimal_scene, {"motion.kind=rigid", "title=Stars, a \"few\" \\ # all of them",
+                                 "initial.file=/data/some file.gadget2"});
+    EXPECT_EQ(scene.simulation.motion.motion, Motion::Rigid);
+    EXPECT_EQ(scene.title, "Stars, a \"few\" \\ # all of them");
+    EXPECT_EQ(scene.initial.file, "/data/some file.gadget2");
+}
+
+TEST(SceneOverride, AnEmptyValueIsTheEmptyString)
+{
+    EXPECT_EQ(scene_of("title = \"old\"\n" + minimal_scene, {"title="}).title, "");
+}
+
+TEST(SceneOverride, ALineBreakCannotSmuggleInAnotherKey)
+{
+    const Scene scene = scene_of(minimal_scene, {"title=1\nseed=9"});
+    EXPECT_EQ(scene.title, "1\nseed=9");
+    EXPECT_EQ(scene.simulation.seed, SimulationSettings{}.seed);
+}
+
+TEST(SceneOverride, EveryKeyCanBeReached)
+{
+    Scene every = scene_of(two_of_each);
+    every.simulation.gravity.emplace();
+    every.simulation.uniform_gravity.emplace();
+    every.simulation.linear_drag.emplace();
+    every.simulation.uniform_wind.emplace();
+
+    // Each key is set to the value it has anyway: the only thing that could go wrong is not to find it.
+    std::vector<std::string> overrides;
+    const auto add = [&](const std::string& prefix, auto& settings) {
+        for_each_field(settings, [&](const Field& field, const auto& value) {
+            overrides.push_back(prefix + std::string(field.key) + "=" + value_text(value));
+        });
+    };
+    for_each_section(every, [&]<class Settings>(const Section& section, Settings& settings) {
+        const std::string name(section.name);
+        if constexpr (requires { settings.at(0); }) {
+            for (std::size_t i = 0; i < settings.size(); ++i)
+                add(name + "." + std::to_string(i) + ".", settings[i]);
+        } else if constexpr (requires { settings.value(); }) {
+            add(name + ".", *settings);
+        } else {
+            add(name.empty() ? "" : name + ".", settings);
+        }
+    });
+    EXPECT_EQ(to_toml(scene_of(two_of_each, overrides)), to_toml(every));
+}
+
+TEST(SceneOverride, ItsProblemsNameTheOverrideInsteadOfALine)
+{
+    const auto faulty = [](const std::string& text) { return problems_of(two_of_each, {text}); };
+    EXPECT_TRUE(only_says(faulty("time.step=-1"), {"--set time.step=-1: time.step = -1 is out of range"}));
+    EXPECT_TRUE(
+        only_says(faulty("gravity.precision=dubble"), {"--set gravity.precision=dubble: ", "mean double?"}));
+    EXPECT_TRUE(only_says(faulty("emitter.1.rat=1"), {"--set emitter.1.rat=1: ", "did you mean rate?"}));
+    EXPECT_TRUE(
+        only_says(faulty("gravty.closure=true"), {"--set gravty.closure=true: [gravty]", "gravity?"}));
+    EXPECT_TRUE(
+        only_says(faulty("emitter.0.kind=water"), {"--set emitter.0.kind=water: emitter.0.kind", "no kind"}));
+}
+
+TEST(SceneOverride, AnElementThatIsNotThereIsRefused)
+{
+    const auto faulty = [](const std::string& text) { return problems_of(two_of_each, {text}); };
+    EXPECT_TRUE(only_says(faulty("emitter.2.rate=1"),
+                          {"--set emitter.2.rate=1: there is no [[emitter]] number 2", "2,"}));
+    EXPECT_TRUE(only_says(faulty("emitter.x.rate=1"), {"there is no [[emitter]] number x"}));
+    EXPECT_TRUE(
+        only_says(faulty("emitter.99999999999999999999.rate=1"), {"there is no [[emitter]] number 9999"}));
+    EXPECT_TRUE(only_says(faulty("emitter.rate=1"),
+                          {"--set emitter.rate=1: ", "write emitter.0.rate for the first"}));
+    EXPECT_TRUE(only_says(faulty("time.0.step=1"), {"there is no [[time]] number 0"}));
+    EXPECT_TRUE(
+        only_says(problems_of("title = \"t\"\n" + two_of_each, {"title.x=1"}), {"title is no table"}));
+}
+
+TEST(SceneOverride, WhatIsNoAssignmentIsRefused)
+{
+    for (const std::string text :
+         {"", "=", "time.step", "time..step=1", ".step=1", "time.=1", "a.b.c.d=1", "a b=1"})
+        EXPECT_TRUE(only_says(problems_of(two_of_each, {text}),
+                              {"--set " + text + ": not understood; write table.key="}));
+}
+
+TEST(SceneOverride, AValueMeantAsTomlButBrokenIsRefused)
+{
+    const auto faulty = [](const std::string& text) { return problems_of(two_of_each, {text}); };
+    EXPECT_TRUE(only_says(faulty("emitter.0.position=[1,2"),
+                          {"--set emitter.0.position=[1,2: the value is not TOML"}));
+    EXPECT_TRUE(only_says(faulty("title=\"open"), {"--set title=\"open: the value is not TOML"}));
+    EXPECT_TRUE(only_says(faulty("title=\xff"), {"the value is not TOML"}));
+}
+
+} // namespace
+
+} // namespace slod::test

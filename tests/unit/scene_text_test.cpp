@@ -1,0 +1,347 @@
+#include "scene_support.hpp"
+
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/random.hpp"
+#include "scene/scene_check.hpp"
+#include "scene/sections.hpp"
+#include "scene/value_text.hpp"
+
+namespace slod::test {
+
+namespace {
+
+/// A value by its bits, so that equal means the same number and nothing less.
+template <class T>
+std::string bits_of(const T& value)
+{
+    if constexpr (std::is_same_v<T, std::string>)
+        return value;
+    else if constexpr (std::is_same_v<T, double>)
+        return std::to_string(std::bit_cast<std::uint64_t>(value));
+    else if constexpr (std::is_same_v<T, Vector3d>)
+        return bits_of(value.x()) + " " + bits_of(value.y()) + " " + bits_of(value.z());
+    else
+        return std::to_string(std::uint64_t(value));
+}
+
+/// All that a scene says, by key; an absent effect has no keys.
+std::map<std::string, std::string> contents(Scene scene)
+{
+    std::map<std::string, std::string> all;
+    const auto add = [&](const std::string& prefix, auto& settings) {
+        all[prefix] = "there";
+        for_each_field(settings, [&](const Field& field, const auto& value) {
+            all[prefix + "." + std::string(field.key)] = bits_of(value);
+        });
+    };
+    for_each_section(scene, [&]<class Settings>(const Section& section, Settings& settings) {
+        const std::string name(section.name);
+        if constexpr (requires { settings.at(0); }) {
+            for (std::size_t i = 0; i < settings.size(); ++i)
+                add(name + "." + std::to_string(i), settings[i]);
+        } else if constexpr (requires { settings.value(); }) {
+            if (settings)
+                add(name, *settings);
+        } else {
+            add(name, settings);
+        }
+    });
+    return all;
+}
+
+/// Gives every field some value that it may have.
+class Scrambler {
+public:
+    explicit Scrambler(std::uint64_t seed) : random_(seed, 0, 0) {}
+
+    void operator()(const Field&, bool& value) { value = random_.bits() % 2 == 0; }
+    void operator()(const Field&, std::string& value)
+    {
+        constexpr std::string_view letters = "ab \"\\'#=[]{}\n\t\x01\x7f";
+        value.clear();
+        for (std::uint32_t length = random_.bits() % 12; length > 0; --length)
+            value += letters[random_.bits() % letters.size()];
+        value += random_.bits() % 2 == 0 ? "\xc3\xa4" : ""; // a letter of two bytes
+    }
+    void operator()(const Field& field, double& value)
+    {
+        const Range range = range_of<double>(field);
+        const bool infinite = field.infinity_allowed && random_.bits() % 4 == 0;
+        value = infinite ? std::numeric_limits<double>::infinity() : number_in(range);
+    }
+    void operator()(const Field& field, Vector3d& value)
+    {
+        for (double& component : value)
+            component = number_in(range_of<double>(field));
+    }
+    template <std::unsigned_integral T>
+    void operator()(const Field& field, T& value)
+    {
+        const Range range = range_of<T>(field);
+        value = T(range.minimum + std::floor(random_.uniform() * (range.maximum - range.minimum + 1)));
+    }
+    template <class E>
+    requires std::is_enum_v<E>
+    void operator()(const Field&, E& value) { value = E(random_.bits() % names(value).size()); }
+
+    std::uint32_t below(std::uint32_t limit) { return random_.bits() % limit; }
+
+private:
+    /// Any double of the range, of any magnitude; sometimes a whole number or a bound.
+    double number_in(const Range& range)
+    {
+        for (int attempt = 0; attempt < 1000; ++attempt) {
+            const std::uint64_t high = random_.bits();
+            double value = std::bit_cast<double>(high << 32 | random_.bits());
+            if (random_.bits() % 4 == 0)
+                value = std::floor(random_.uniform() * 1e21 / double(1 + random_.bits()));
+            if (std::isfinite(value) && range.contains(value))
+                return value;
+        }
+        return range.minimum;
+    }
+
+    Random random_;
+};
+
+/// A scene of random values that has no problems.
+Scene random_scene(std::uint64_t seed)
+{
+    Scrambler scrambler(seed);
+    Scene scene;
+    for_each_section(scene, [&]<class Settings>(const Section& section, Settings& settings) {
+        if constexpr (requires { settings.at(0); }) {
+            settings.resize(section.name == "kind" ? 3 : scrambler.below(4));
+            for (std::size_t i = 0; i < settings.size(); ++i) {
+                for_each_field(settings[i], scrambler);
+                settings[i].name = std::string(section.name) + "-" + std::to_string(i);
+            }
+        } else if constexpr (requires { settings.value(); }) {
+            if (scrambler.below(2) == 0)
+                for_each_field(settings.emplace(), scrambler);
+        } else {
+            for_each_field(settings, scrambler);
+        }
+    });
+    // What the fields together must satisfy.
+    SimulationSettings& simulation = scene.simulation;
+    for (EmitterSettings& emitter : simulation.emitters) {
+        emitter.kind = simulation.kinds[scrambler.below(3)].name;
+        emitter.direction.z() = 1;
+        emitter.direction.x() = emitter.direction.y() = -0.0;
+    }
+    simulation.motion.shortest_life = 1U << scrambler.below(6);
+    simulation.motion.longest_life = simulation.motion.shortest_life << scrambler.below(6);
+    if (simulation.uniform_wind)
+        simulation.linear_drag.emplace();
+    scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;
+    scene.initial.fallback = InitialModel::None;
+    if (scene.initial.model == InitialModel::None)
+        simulation.background.max_breadth = 3;
+    return scene;
+}
+
+class ShippedScene : public testing::TestWithParam<std::string> {
+protected:
+    static std::filesystem::path file(const std::string& name)
+    {
+        return std::filesystem::path(SLOD_SCENES) / (name + ".toml");
+    }
+    static Scene read(const std::filesystem::path& file, const std::vector<std::string>& overrides = {})
+    {
+        const auto loaded = load_scene(file, overrides);
+        if (const auto* const found = std::get_if<Problems>(&loaded))
+            for (const std::string& problem : *found)
+                ADD_FAILURE() << problem;
+        return std::holds_alternative<Scene>(loaded) ? std::get<Scene>(loaded) : Scene{};
+    }
+};
+
+TEST_P(ShippedScene, HasNoProblems)
+{
+    EXPECT_FALSE(read(file(GetParam())).title.empty());
+}
+
+TEST_P(ShippedScene, ComesBackFromItsOwnText)
+{
+    const Scene scene = read(file(GetParam()));
+    EXPECT_EQ(contents(scene_of(to_toml(scene))), contents(scene));
+}
+
+TEST_P(ShippedScene, ExplainsEveryKey)
+{
+    // By a comment in its line. Of tables alike, one is enough; a title speaks for itself.
+    std::ifstream stream(file(GetParam()));
+    std::map<std::string, bool> explained;
+    std::string table;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with('['))
+            table = line.substr(0, line.rfind(']') + 1);
+        if (const auto equals = line.find(" = "); equals != std::string::npos && line[0] != '#')
+            explained[table + " " + line.substr(0, equals)] |= line.find('#') != std::string::npos;
+    }
+    EXPECT_GT(explained.size(), 10U);
+    for (const auto& [key, has_comment] : explained)
+        EXPECT_TRUE(has_comment || key == " title") << key;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::Values("fountain", "galaxy", "galaxy-collision"));
+
+TEST_F(ShippedScene, OfTheCollisionHasTheFilesUnits)
+{
+    // GADGET's own constant for this file; it gives six digits.
+    const Scene scene = read(file("galaxy-collision"));
+    EXPECT_NEAR(scene.simulation.units.gravitational_constant(), 43007.1, 0.05);
+    EXPECT_EQ(scene.simulation.kinds.at(0).name, "halo");
+    EXPECT_EQ(scene.simulation.kinds.at(0).softening, 1.0);
+    EXPECT_EQ(scene.simulation.kinds.at(1).name, "disc");
+    EXPECT_EQ(scene.simulation.kinds.at(1).softening, 0.4);
+    EXPECT_EQ(scene.simulation.time.step, 0.001);
+}
+
+TEST_F(ShippedScene, OfTheGalaxyTakesAMillionStars)
+{
+    EXPECT_EQ(read(file("galaxy")).galaxy.particles, 10'000U);
+    EXPECT_EQ(read(file("galaxy"), {"galaxy.particles=1000000"}).galaxy.particles, 1'000'000U);
+}
+
+TEST_F(ShippedScene, OfTheFountainHasThreeStreamsOfTwoThousandDropletsFiveSecondsApart)
+{
+    const Scene scene = read(file("fountain"));
+    ASSERT_EQ(scene.simulation.emitters.size(), 3U);
+    double start = 0;
+    for (const EmitterSettings& emitter : scene.simulation.emitters) {
+        EXPECT_EQ(emitter.rate * emitter.lifetime, 2000);
+        EXPECT_EQ(emitter.start, start);
+        start += 5;
+    }
+    EXPECT_TRUE(scene.simulation.uniform_gravity && scene.simulation.linear_drag &&
+                scene.simulation.uniform_wind);
+    EXPECT_FALSE(scene.simulation.gravity);
+}
+
+TEST_F(ShippedScene, OfTheFountainTakesTenMillionDropletsAsItSaysItself)
+{
+    // The overrides are read from the file's own comment.
+    std::ifstream stream(file("fountain"));
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::string mark = "--set emitter";
+    std::vector<std::string> overrides;
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+        const auto begin = at + 6;
+        overrides.push_back(text.substr(begin, text.find_first_of(" \n", begin) - begin));
+    }
+    ASSERT_EQ(overrides.size(), 3U);
+    double droplets = 0;
+    for (const EmitterSettings& emitter : read(file("fountain"), overrides).simulation.emitters)
+        droplets += emitter.rate * emitter.lifetime;
+    EXPECT_NEAR(droplets, 10e6, 10); // rates are given in whole droplets a second, three times 2.5 s
+}
+
+TEST(SceneText, EveryRandomSceneComesBackTheSame)
+{
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        const Scene scene = random_scene(seed);
+        ASSERT_TRUE(problems(scene).empty()) << problems(scene).front();
+        ASSERT_EQ(contents(scene_of(to_toml(scene))), contents(scene)) << to_toml(scene);
+    }
+}
+
+TEST(SceneText, HasOneLinePerKey)
+{
+    Scene scene = scene_of(minimal_scene);
+    scene.title = "two\nlines";
+    const std::string text = to_toml(scene);
+    EXPECT_NE(text.find("title = \"two\\u000Alines\"\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n[[kind]]\nname = \"star\"\nsoftening = 0.0\n"), std::string::npos) << text;
+    EXPECT_EQ(text.find("[gravity]"), std::string::npos) << "an absent effect is not written";
+}
+
+TEST(SceneReference, HasEveryKeyWithUnitDefaultRangeAndHelp)
+{
+    const std::string reference = scene_reference();
+    std::istringstream stream(reference);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+
+    Scene scene;
+    scene.simulation.kinds.resize(1);
+    scene.simulation.emitters.resize(1);
+    scene.simulation.gravity.emplace();
+    scene.simulation.uniform_gravity.emplace();
+    scene.simulation.linear_drag.emplace();
+    scene.simulation.uniform_wind.emplace();
+    const auto look_for = [&](auto& settings) {
+        for_each_field(settings, [&]<class T>(const Field& field, const T& value) {
+            // The columns are in this order, so one search after the other finds them.
+            const auto says_all = [&](const std::string& line) {
+                std::size_t at = 0;
+                for (const std::string& part :
+                     {"  " + std::string(field.key) + " ", std::string(field.unit), value_text(value),
+                      choice_text<T>(field), std::string(field.help)}) {
+                    at = line.find(part, at);
+                    if (at == std::string::npos)
+                        return false;
+                    at += part.size();
+                }
+                return true;
+            };
+            EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), says_all)) << field.key << " in:\n"
+                                                                           << reference;
+        });
+    };
+    for_each_section(scene, [&]<class Settings>(const Section& section, Settings& settings) {
+        EXPECT_NE(reference.find(section.help), std::string::npos) << section.name;
+        if constexpr (requires { settings.at(0); })
+            look_for(settings.front());
+        else if constexpr (requires { settings.value(); })
+            look_for(*settings);
+        else
+            look_for(settings);
+    });
+}
+
+TEST(SceneReference, IsAligned)
+{
+    // The default of each key starts in the column of the heading "default".
+    const std::string reference = scene_reference();
+    const auto column = reference.find("default");
+    std::istringstream stream(reference);
+    int checked = 0;
+    for (std::string line; std::getline(stream, line);)
+        if (line.starts_with("  ") && line.size() > column) {
+            EXPECT_EQ(line[column - 1], ' ') << line;
+            EXPECT_NE(line[column], ' ') << line;
+            ++checked;
+        }
+    EXPECT_GT(checked, 60);
+}
+
+TEST(NumberText, IsTheShortestThatReadsBack)
+{
+    EXPECT_EQ(number_text(0.1), "0.1");
+    EXPECT_EQ(number_text(64), "64");
+    EXPECT_EQ(number_text(1.0 / 3), "0.3333333333333333");
+    EXPECT_EQ(float_text(64), "64.0");
+    EXPECT_EQ(float_text(0x1p70), "1180591620717411303424.0") << "no integer of TOML's";
+    EXPECT_EQ(float_text(-std::numeric_limits<double>::infinity()), "-inf");
+}
+
+TEST(RangeText, SaysWhatIsBounded)
+{
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(range_text({0.5, 100e6}, false), "0.5 to 100000000");
+    EXPECT_EQ(range_text({0, infinity}, true), "at least 0, or inf");
+    EXPECT_EQ(range_text({-infinity, 1e30}, false), "at most 1e+30");
+    EXPECT_EQ(range_text({-infinity, infinity}, false), "any finite number");
+}
+
+} // namespace
+
+} // namespace slod::test
