@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/settings.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
+
+#include "core/settings.hpp"
 
 namespace slod {
 
@@ -50,16 +50,19 @@ void for_each_field(WireSettings& wire, Visitor&& visit)
 {
     visit(Field{"enabled", "", "Publish over DDS at all."}, wire.enabled);
     visit(Field{"domain", "", "DDS domain.", 0, 230}, wire.domain);
-    visit(Field{"profile", "", "loopback stays on this machine; lan is reachable from others."}, wire.profile);
+    visit(Field{"profile", "", "loopback stays on this machine; lan is reachable from others."},
+          wire.profile);
     visit(Field{"clusters_rate", "Hz", "Cluster states are published at most this often.", 0.01, 1000},
           wire.clusters_rate);
     visit(Field{"overview_rate", "Hz", "The overview is published at most this often.", 0.01, 1000},
           wire.overview_rate);
-    visit(Field{"stats_rate", "Hz", "Statistics are published at most this often.", 0.01, 1000}, wire.stats_rate);
-    visit(Field{"max_clusters", "clusters", "Most clusters published per region and frame; beyond, coarser nodes.", 1,
-                4e6},
+    visit(Field{"stats_rate", "Hz", "Statistics are published at most this often.", 0.01, 1000},
+          wire.stats_rate);
+    visit(Field{"max_clusters", "clusters",
+                "Most clusters published per region and frame; beyond, coarser nodes.", 1, 4e6},
           wire.max_clusters);
-    visit(Field{"max_overview_nodes", "nodes", "Most nodes of the overview.", 1, 65536}, wire.max_overview_nodes);
+    visit(Field{"max_overview_nodes", "nodes", "Most nodes of the overview.", 1, 65536},
+          wire.max_overview_nodes);
 }
 
 } // namespace slod

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -67,10 +66,9 @@ void check_emitter(const std::string& key, const EmitterSettings& emitter,
     if (!kind_exists)
         found.push_back(key + ".kind = " + in_quotes(emitter.kind) + " is no kind of the scene; " +
                         (known.empty() ? "add a [[kind]] of that name." : "its kinds are " + known + "."));
-    // Normal: the square neither vanishes nor overflows when the direction is normalised.
-    if (!std::isnormal(emitter.direction.squaredNorm()))
+    if (emitter.direction.isZero(0))
         found.push_back(key +
-                        ".direction has no usable length; give the axis of the cone, such as [0, 0, 1].");
+                        ".direction = [0, 0, 0] is none; give the axis of the cone, such as [0, 0, 1].");
 }
 
 void check_lives(const MotionSettings& motion, Problems& found)
