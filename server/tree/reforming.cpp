@@ -11,8 +11,11 @@ namespace slod {
 namespace {
 
 constexpr double sparse = 0.5; ///< of the pool limit: two sibling leaves are merged
+/// Pools that keep one turn. Neighbours that end their lives together exchange members without strays;
+/// all pools at once would make every other frame long.
+constexpr std::uint32_t pools_per_turn = 16;
 /// Share of the maximum size that clusters are formed at; strays fill the rest.
-constexpr double filled = 0.75;
+constexpr double filled = 0.7;
 
 } // namespace
 
@@ -253,6 +256,8 @@ void Reforming::expand_group(SlodTree& tree, std::size_t index)
         const auto lower = std::uint32_t(cut - begin);
         const PoolId right =
             expand(tree.of(group.pool), context_.store.clusters, group.pool.pool, axis, position);
+        if (group.count > pools_per_turn * limit)
+            take_own_turn(tree.of(group.pool), right);
         const Grouping::Group other{
             .pool = {group.pool.region, right}, .first = group.first + lower, .count = group.count - lower};
         group.count = lower;

@@ -211,6 +211,11 @@ PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, doub
     return right;
 }
 
+void take_own_turn(Subtree& tree, PoolId pool)
+{
+    tree.pools[pool.index].phase = phase_of(pool);
+}
+
 PoolId prune(Subtree& tree, ClusterTable& clusters, PoolId pool, std::uint32_t members)
 {
     for (;;) {

@@ -84,6 +84,9 @@ PoolId locate_or_grow(Subtree& tree, const Vector3d& x);
 /// pool itself becomes the left one; the right one is returned, with the same turn.
 PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, double position);
 
+/// Gives a pool a turn of its own, unlike that of the pool it was split from.
+void take_own_turn(Subtree& tree, PoolId pool);
+
 /// Whether a leaf can be divided further: not when it has become too deep, or too thin for its cell or for
 /// the resolution of its coordinates.
 bool can_expand(const Subtree& tree, PoolId pool);
