@@ -168,11 +168,11 @@ TEST_P(ExactFountain, KeepsEveryDropletOnItsPath)
     EXPECT_LE(differences.velocity, 1e-6);
 }
 
-// The default, clusters that are never broad enough to split, and the map of freely streaming members, which
-// is the same one here.
+// The default, every droplet by itself, clusters that are never broad enough to split, and the map of freely
+// streaming members, which is the same one here.
 INSTANTIATE_TEST_SUITE_P(Scenes, ExactFountain,
-                         testing::Values("background.max_cluster_size=64", "background.max_breadth=100.0",
-                                         "motion.kind=\"stream\""));
+                         testing::Values("background.max_cluster_size=64", "background.max_cluster_size=1",
+                                         "background.max_breadth=100.0", "motion.kind=\"stream\""));
 
 TEST(RigidFountain, TakesDropletsFarFromTheirPaths)
 {
