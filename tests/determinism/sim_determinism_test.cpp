@@ -1,0 +1,152 @@
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <ostream>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.hpp"
+#include "sim/simulation.hpp"
+#include "simd/kernels.hpp"
+#include "support/small_scenes.hpp"
+
+// The state has the same bits whatever runs it: any number of threads, any instruction set, any run. Hashes
+// of the state are compared after every frame, and the first frame that differs is named.
+namespace slod::test {
+
+void PrintTo(const SmallScene& scene, std::ostream* out)
+{
+    *out << scene.name;
+}
+
+namespace {
+
+constexpr int frame_count = 48; ///< three of the longest lives
+
+/// How a scene is run.
+struct Conditions {
+    int threads = 1;
+    std::string_view isa = "baseline";
+};
+
+/// The state's hash at the start and after each frame.
+std::vector<std::uint64_t> hashes(const SmallScene& scene, const Conditions& conditions)
+{
+    std::vector<std::uint64_t> result;
+    ThreadTeam(conditions.threads).run([&] {
+        Simulation simulation(scene.settings, scene.initial, {.isa = conditions.isa, .tick = {}});
+        EXPECT_EQ(simulation.isa(), conditions.isa);
+        result.push_back(simulation.state_hash());
+        for (int frame = 0; frame < frame_count; ++frame) {
+            simulation.step({});
+            result.push_back(simulation.state_hash());
+        }
+    });
+    return result;
+}
+
+testing::AssertionResult same(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b)
+{
+    for (std::size_t frame = 0; frame < a.size(); ++frame)
+        if (a[frame] != b[frame])
+            return testing::AssertionFailure() << "frame " << frame << " is the first to differ";
+    return testing::AssertionSuccess();
+}
+
+std::string name_of(const testing::TestParamInfo<SmallScene>& info)
+{
+    return info.param.name;
+}
+
+class SameBits : public testing::TestWithParam<SmallScene> {};
+
+TEST_P(SameBits, WithAnyNumberOfThreads)
+{
+    const std::vector<std::uint64_t> alone = hashes(GetParam(), {.threads = 1});
+    for (const int threads : {2, 3, 4, 8, 16})
+        EXPECT_TRUE(same(alone, hashes(GetParam(), {.threads = threads}))) << threads << " threads";
+}
+
+TEST_P(SameBits, InTwoRuns)
+{
+    const Conditions conditions{.threads = 4};
+    EXPECT_TRUE(same(hashes(GetParam(), conditions), hashes(GetParam(), conditions)));
+}
+
+TEST_P(SameBits, OnEveryInstructionSet)
+{
+    const auto runnable = simd::runnable_kernels();
+    const std::vector<std::uint64_t> slowest =
+        hashes(GetParam(), {.threads = 2, .isa = runnable.front()->name});
+    for (const simd::KernelTable* kernels : runnable.subspan(1))
+        EXPECT_TRUE(same(slowest, hashes(GetParam(), {.threads = 2, .isa = kernels->name}))) << kernels->name;
+}
+
+/// The state's hash at the end of each scene's run. One changes whenever the simulation computes anything
+/// else than before, by as much as a bit: the commit that changes one says what, and why that is right.
+const std::map<std::string, std::uint64_t> pinned{
+    {"flow", 0x7ff6a45b96b2c3c8},           {"flow_in_double", 0x2bbd24ef8677f65f},
+    {"stream", 0x1401ee4dabc430b1},         {"rigid", 0xbcda07619ea7f76c},
+    {"unclustered", 0x43c4f2a1186683d6},    {"fountain", 0x2383daeee703c239},
+    {"rigid_fountain", 0x4219347f4ee670eb}, {"mixture", 0x1591fee308a099f3},
+};
+
+TEST_P(SameBits, AsWhenTheyWerePinned)
+{
+    const std::uint64_t now = hashes(GetParam(), {.threads = 2}).back();
+    EXPECT_EQ(pinned.at(GetParam().name), now) << GetParam().name << ", 0x" << std::hex << now;
+}
+
+TEST_P(SameBits, OfASoundState)
+{
+    Simulation simulation(GetParam().settings, GetParam().initial, {});
+    for (int frame = 0; frame < frame_count; ++frame)
+        simulation.step({});
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, testing::ValuesIn(small_scenes()), name_of);
+
+// What no scene does, no scene shows to be the same.
+TEST(DeterminismScenes, MakeEverythingHappen)
+{
+    FrameCounts all;
+    for (const SmallScene& scene : small_scenes()) {
+        Simulation simulation(scene.settings, scene.initial, {});
+        for (int frame = 0; frame < frame_count; ++frame) {
+            const FrameCounts& counts = simulation.step({}).counts;
+            for (const EventCount& event : event_counts)
+                all.*event.count += counts.*event.count;
+        }
+    }
+    for (const EventCount& event : event_counts) {
+        SCOPED_TRACE(event.name);
+        EXPECT_GT(all.*event.count, 0U);
+    }
+}
+
+// On a machine of few cores the other tests would say little if the team were quietly cut down to them.
+TEST(ThreadTeamOfSixteen, WorksWithMoreThreadsThanThreeOrFour)
+{
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    constexpr int enough = 8;
+    ThreadTeam(16).run([&] {
+        // Workers come as they please; a thousand rounds of sixteen short naps are far more than they need.
+        for (int round = 0; round < 1000 && seen.size() < enough; ++round)
+            for_each_task(64, [&](std::size_t) {
+                std::this_thread::sleep_for(std::chrono::microseconds(200));
+                const std::lock_guard lock(mutex);
+                seen.insert(std::this_thread::get_id());
+            });
+    });
+    EXPECT_GE(seen.size(), enough);
+}
+
+} // namespace
+} // namespace slod::test
