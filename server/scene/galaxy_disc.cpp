@@ -36,8 +36,8 @@ DiscModel::Swing DiscModel::swing(double radius, double guiding_radius) const
 {
     const double thickness =
         field_.shape().scale_height * std::numbers::pi / std::sqrt(12.0); // rms of sech^2
-    const double vertical = layers_.dispersion(radius) / thickness,
-                 radial = orbits_.epicyclic_frequency(radius);
+    const double vertical = layers_.dispersion(radius) / thickness;
+    const double radial = orbits_.epicyclic_frequency(radius);
     const double excess = 4 * vertical * vertical - radial * radial;
     const double exponent = excess > 0 ? std::min(2 * vertical * vertical / excess, 1.0) : 1;
     const double logarithm = portable_log(layers_.dispersion(guiding_radius) / layers_.dispersion(radius));

@@ -15,7 +15,7 @@ namespace {
 constexpr double table_top = 8; ///< scale heights; one star in four million is higher
 constexpr int layer_reach = 24; ///< layers on each side of the plane
 constexpr double layers_per_scale_height = 4;
-constexpr std::size_t thin_steps = 64;
+constexpr std::size_t thin_steps = 48;
 
 double sech_squared(double x)
 {

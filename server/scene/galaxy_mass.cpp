@@ -10,7 +10,8 @@
 namespace slod {
 namespace {
 
-constexpr std::size_t profile_intervals = 512;
+constexpr std::size_t disc_intervals = 256;
+constexpr std::size_t spheroid_intervals = 512;
 
 double portable_tanh(double x)
 {
@@ -84,8 +85,8 @@ double DiscShape::surface_density(double radius) const
 MassProfile disc_profile(const DiscShape& disc)
 {
     std::vector<double> radii;
-    for (std::size_t i = 0; i <= profile_intervals; ++i)
-        radii.push_back(disc.outer_radius() * double(i) / profile_intervals);
+    for (std::size_t i = 0; i <= disc_intervals; ++i)
+        radii.push_back(disc.outer_radius() * double(i) / disc_intervals);
     return MassProfile(
         std::move(radii), [&](double r) { return r * disc.surface_density(r); }, disc.mass);
 }
@@ -95,14 +96,14 @@ std::vector<MassAtRadius> disc_shells(const DiscShape& disc, const MassProfile& 
     const auto rings = profile.pieces();
     std::vector<MassAtRadius> shells;
     double inside = 0;
-    for (std::size_t i = 1; i <= profile_intervals; ++i) {
-        const double radius = disc.outer_radius() * double(i) / profile_intervals;
+    for (std::size_t i = 1; i <= disc_intervals; ++i) {
+        const double radius = disc.outer_radius() * double(i) / disc_intervals;
         double within = 0;
         for (const MassAtRadius& ring : rings)
             if (ring.radius < radius)
                 within += ring.mass * portable_tanh(std::sqrt(radius * radius - ring.radius * ring.radius) /
                                                     disc.scale_height);
-        shells.push_back({disc.outer_radius() * (double(i) - 0.5) / profile_intervals, within - inside});
+        shells.push_back({disc.outer_radius() * (double(i) - 0.5) / disc_intervals, within - inside});
         inside = within;
     }
     return shells;
@@ -119,10 +120,10 @@ MassProfile spheroid_profile(const SpheroidShape& spheroid)
 {
     // Equal steps of r / (r + scale) resolve the cusp and the far end alike.
     std::vector<double> radii;
-    for (std::size_t i = 0; i <= profile_intervals; ++i) {
+    for (std::size_t i = 0; i <= spheroid_intervals; ++i) {
         const double s =
-            spheroid.cutoff / (spheroid.cutoff + spheroid.scale_length) * double(i) / profile_intervals;
-        radii.push_back(i == profile_intervals ? spheroid.cutoff : spheroid.scale_length * s / (1 - s));
+            spheroid.cutoff / (spheroid.cutoff + spheroid.scale_length) * double(i) / spheroid_intervals;
+        radii.push_back(i == spheroid_intervals ? spheroid.cutoff : spheroid.scale_length * s / (1 - s));
     }
     const auto mass_per_radius = [&](double r) { return r > 0 ? r * r * spheroid.relative_density(r) : 0; };
     return MassProfile(std::move(radii), mass_per_radius, spheroid.mass);

@@ -34,9 +34,36 @@ struct Component {
 
 using Components = std::array<Component, 3>; ///< disc, bulge, halo; their places are the random streams
 
+struct Blueprint {
+    DiscShape disc;
+    SpheroidShape bulge, halo;
+    Components components;
+};
+
 std::size_t particles_of(double share, std::size_t particles)
 {
     return std::size_t(std::min(share, 1.0) * double(particles) + 0.5);
+}
+
+Blueprint blueprint(const GalaxySettings& settings, const GalaxyKinds& kinds)
+{
+    const double cutoff = settings.halo_cutoff * settings.halo_scale_length;
+    Blueprint galaxy{{settings.disc_mass, settings.disc_scale_length, settings.disc_scale_height},
+                     {settings.bulge_mass, settings.bulge_scale_length, cutoff},
+                     {settings.halo_mass, settings.halo_scale_length, cutoff},
+                     {}};
+    const std::size_t all = settings.particles;
+    const std::size_t in_bulge = settings.bulge_mass > 0 ? particles_of(settings.bulge_share, all) : 0;
+    const std::size_t outside_bulge = all - in_bulge;
+    const std::size_t in_disc = settings.halo_mass > 0
+                                    ? std::min(particles_of(settings.disc_share, all), outside_bulge)
+                                    : outside_bulge;
+    galaxy.components = {{
+        {kinds.disc, settings.disc_mass, in_disc, disc_shells(galaxy.disc, disc_profile(galaxy.disc))},
+        {kinds.bulge, settings.bulge_mass, in_bulge, spheroid_profile(galaxy.bulge).pieces()},
+        {kinds.halo, settings.halo_mass, outside_bulge - in_disc, spheroid_profile(galaxy.halo).pieces()},
+    }};
+    return galaxy;
 }
 
 /// The potential of spherically averaged components that particles of `kind` feel.
@@ -117,36 +144,22 @@ void fill_spheroid(std::span<Particle> places, const SpheroidShape& shape, const
 ParticleSet make_galaxy(const GalaxySettings& settings, const GalaxyKinds& kinds,
                         double gravitational_constant, std::uint64_t seed)
 {
-    const DiscShape disc{settings.disc_mass, settings.disc_scale_length, settings.disc_scale_height};
-    const double cutoff = settings.halo_cutoff * settings.halo_scale_length;
-    const SpheroidShape bulge{settings.bulge_mass, settings.bulge_scale_length, cutoff};
-    const SpheroidShape halo{settings.halo_mass, settings.halo_scale_length, cutoff};
-
-    const std::size_t all = settings.particles;
-    const std::size_t in_bulge = bulge.mass > 0 ? particles_of(settings.bulge_share, all) : 0;
-    const std::size_t outside_bulge = all - in_bulge;
-    const std::size_t in_disc =
-        halo.mass > 0 ? std::min(particles_of(settings.disc_share, all), outside_bulge) : outside_bulge;
-    const Components components{{
-        {kinds.disc, disc.mass, in_disc, disc_shells(disc, disc_profile(disc))},
-        {kinds.bulge, bulge.mass, in_bulge, spheroid_profile(bulge).pieces()},
-        {kinds.halo, halo.mass, outside_bulge - in_disc, spheroid_profile(halo).pieces()},
-    }};
-
-    ParticleSet particles(all);
+    const FlushDenormals flush; // as the tasks do, whatever the caller's thread does
+    const Blueprint galaxy = blueprint(settings, kinds);
+    ParticleSet particles(settings.particles);
     const double velocity_unit = std::sqrt(gravitational_constant); // the components know of G = 1 only
     std::size_t next = 0;
-    for (std::uint32_t stream = 0; stream < components.size(); ++stream) {
-        const Component& component = components[stream];
+    for (std::uint32_t stream = 0; stream < galaxy.components.size(); ++stream) {
+        const Component& component = galaxy.components[stream];
         if (component.particles == 0)
             continue;
         const auto places = std::span(particles).subspan(next, component.particles);
         const QuietNumbers random(seed, stream);
         if (stream == 0)
-            fill_disc(places, disc, settings.toomre_q, components, random, velocity_unit);
+            fill_disc(places, galaxy.disc, settings.toomre_q, galaxy.components, random, velocity_unit);
         else
-            fill_spheroid(places, stream == 1 ? bulge : halo, component.kind, components, random,
-                          velocity_unit);
+            fill_spheroid(places, stream == 1 ? galaxy.bulge : galaxy.halo, component.kind, galaxy.components,
+                          random, velocity_unit);
         centre(places);
         for (Particle& particle : places) {
             particle.id = next++;
