@@ -54,20 +54,23 @@ double drag_drift(double drag, double time)
     return drag == 0 ? time : -portable_expm1(-drag * time) / drag;
 }
 
+double MapRule::decay(std::uint64_t age_frames) const
+{
+    return kind == MapKind::Identity || drag == 0 ? 1.0 : portable_exp(-drag * (double(age_frames) * step));
+}
+
 MapBlocks MapRule::blocks(std::uint64_t age_frames, const FlowMap* full) const
 {
     if (kind == MapKind::Identity)
         return {};
-    const double age = double(age_frames) * step;
-    const double decay = drag == 0 ? 1.0 : portable_exp(-drag * age);
     if (kind == MapKind::Full) {
         SLOD_ASSERT(full != nullptr);
-        return blocks_of(*full, decay);
+        return blocks_of(*full, decay(age_frames));
     }
     MapBlocks blocks;
-    blocks.b = drag_drift(drag, age) * Matrix3d::Identity();
-    blocks.d = decay * Matrix3d::Identity();
-    blocks.decay = decay;
+    blocks.b = drag_drift(drag, double(age_frames) * step) * Matrix3d::Identity();
+    blocks.decay = decay(age_frames);
+    blocks.d = blocks.decay * Matrix3d::Identity();
     return blocks;
 }
 

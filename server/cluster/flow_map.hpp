@@ -83,6 +83,9 @@ struct MapRule {
     double drag = 0; ///< k, 1 / time
     double step = 0; ///< time of one frame
 
+    /// exp(-k age), which every map of this age shrinks phase space by.
+    double decay(std::uint64_t age_frames) const;
+
     /// The map of a cluster formed `age_frames` ago; `full` is read only for MapKind::Full.
     MapBlocks blocks(std::uint64_t age_frames, const FlowMap* full) const;
 };

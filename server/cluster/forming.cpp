@@ -208,7 +208,7 @@ bool takes_members(const ClusterStore& store, ClusterSlot cluster, std::uint64_t
     const ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
     return clusters.stored[slot] < clusters.slab[slot].capacity &&
-           clusters.blocks(slot, store.rule, frame).decay >= least_decay;
+           store.rule.decay(frame - clusters.formed_frame[slot]) >= least_decay;
 }
 
 void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& particle, std::uint64_t frame)
