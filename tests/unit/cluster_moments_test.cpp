@@ -124,17 +124,19 @@ TEST_P(MomentsByMap, TheTotalIsTheSumOverClusters)
     EXPECT_LE((known.angular_momentum - direct.angular_momentum).norm(), summing * 10 * direct.mass);
 }
 
-TEST(Moments, ANegativeWeightTakesAMemberAwayAgain)
+TEST(Moments, AreTheWeightedSumsOverTheMembers)
 {
     Moments moments;
     moments.add(2, {1, 2, 3}, {4, 5, 6});
     moments.add(3, {-1, 4, 2}, {2, 2, 1});
-    moments.add(-3, {-1, 4, 2}, {2, 2, 1});
-    EXPECT_EQ(moments.weight, 2);
-    EXPECT_EQ(moments.mean_offset(), Vector3d(1, 2, 3)); // small integers: exact
-    EXPECT_EQ(moments.oo.xy, 4);
-    EXPECT_EQ(moments.ww.zz, 72);
-    EXPECT_EQ(moments.ow(2, 0), 24);
+    EXPECT_EQ(moments.weight, 5); // small integers: all of it is exact
+    EXPECT_EQ(moments.o, Vector3d(-1, 16, 12));
+    EXPECT_EQ(moments.w, Vector3d(14, 16, 15));
+    EXPECT_EQ(moments.oo.xy, 2 * 2 - 3 * 4);
+    EXPECT_EQ(moments.ww.zz, 2 * 36 + 3 * 1);
+    EXPECT_EQ(moments.ow(2, 0), 2 * 12 + 3 * 4);
+    EXPECT_EQ(moments.mean_offset().y(), 16.0 / 5);
+    EXPECT_EQ(Moments().mean_velocity(), Vector3d(0, 0, 0));
 }
 
 TEST(Breadth, IsTheDiameterOfAHomogeneousBall)

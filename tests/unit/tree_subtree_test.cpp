@@ -90,7 +90,7 @@ TEST(Subtree, ExpandingDividesClustersByTheirCentre)
     EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
 }
 
-TEST(Subtree, BothHalvesOfAnExpandedPoolHaveItsTurn)
+TEST(Subtree, BothHalvesOfAnExpandedPoolKeepItsTurnUntilOneTakesItsOwn)
 {
     test::World world = world_of(100, 1, 4);
     Subtree& tree = world.region();
@@ -101,6 +101,8 @@ TEST(Subtree, BothHalvesOfAnExpandedPoolHaveItsTurn)
     EXPECT_EQ(tree.pools[right.index].turn_frame, 7U);
     EXPECT_EQ(tree.pools[right.index].due_frame, 15U);
     EXPECT_EQ(tree.pools[right.index].phase, tree.pools[left.index].phase);
+    take_own_turn(tree, right);
+    EXPECT_NE(tree.pools[right.index].phase, tree.pools[left.index].phase);
 }
 
 TEST(Subtree, PruningUndoesExpanding)
