@@ -212,7 +212,6 @@ TEST_F(WirePublish, TwoServersOnADomainAreToldApart)
 
 TEST_F(WirePublish, ADomainThatCannotBeJoinedIsExplained)
 {
-    const std::string before = std::getenv("CYCLONEDDS_URI") ? std::getenv("CYCLONEDDS_URI") : "";
     setenv("CYCLONEDDS_URI",
            "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nowhere0\"/>"
            "</Interfaces></General></Domain></CycloneDDS>",
@@ -223,7 +222,7 @@ TEST_F(WirePublish, ADomainThatCannotBeJoinedIsExplained)
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("CYCLONEDDS_URI"), std::string::npos) << error.what();
     }
-    setenv("CYCLONEDDS_URI", before.c_str(), 1);
+    unsetenv("CYCLONEDDS_URI");
 }
 
 } // namespace

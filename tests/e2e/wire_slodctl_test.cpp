@@ -69,9 +69,9 @@ TEST_F(WireSlodctl, StatusSaysWhichServerThereIs)
     ASSERT_EQ(status.wait(), int(ExitCode::Success)) << status.errors();
     const std::vector<json> answers = objects(status.output());
     ASSERT_EQ(answers.size(), 1U);
-    EXPECT_EQ(answers[0]["contact"], "live");
-    EXPECT_EQ(answers[0]["scene_title"], "made up");
-    EXPECT_EQ(answers[0]["version"], "0.0.1");
+    EXPECT_EQ(answers[0].at("contact"), "live");
+    EXPECT_EQ(answers[0].at("scene_title"), "made up");
+    EXPECT_EQ(answers[0].at("version"), "0.0.1");
 }
 
 TEST_F(WireSlodctl, StatsPrintsOneFramesNumbers)
@@ -80,10 +80,10 @@ TEST_F(WireSlodctl, StatsPrintsOneFramesNumbers)
     Child stats(slodctl({"stats", "--json", "--timeout", "30"}));
     ASSERT_EQ(stats.wait(), int(ExitCode::Success)) << stats.errors();
     const json answer = objects(stats.output()).at(0);
-    EXPECT_EQ(answer["clusters"], 100);
-    EXPECT_EQ(answer["counts"]["interactions"], 12'345'678'901);
-    EXPECT_EQ(answer["phases_ms"]["forces"], 4.5);
-    EXPECT_TRUE(answer["conserved"]["potential_energy"].is_null());
+    EXPECT_EQ(answer.at("clusters"), 100);
+    EXPECT_EQ(answer.at("counts").at("interactions"), 12'345'678'901);
+    EXPECT_EQ(answer.at("phases_ms").at("forces"), 4.5);
+    EXPECT_TRUE(answer.at("conserved").at("potential_energy").is_null());
 }
 
 TEST_F(WireSlodctl, StatsPrintsTheValuesThatAreNamed)
@@ -110,8 +110,8 @@ TEST_F(WireSlodctl, WatchPrintsOneLineForEachUpdate)
     ASSERT_EQ(watch.wait(), int(ExitCode::Success)) << watch.errors();
     const std::vector<json> updates = objects(watch.output());
     ASSERT_EQ(updates.size(), 2U);
-    EXPECT_GT(updates[1]["frame"], updates[0]["frame"]);
-    EXPECT_GT(updates[1]["receive"]["received"], 0);
+    EXPECT_GT(updates[1].at("frame"), updates[0].at("frame"));
+    EXPECT_GT(updates[1].at("receive").at("received"), 0);
 }
 
 TEST_F(WireSlodctl, WatchEndsCleanlyOnCtrlC)

@@ -33,6 +33,7 @@ std::filesystem::path new_folder()
 
 FreeDomain::FreeDomain()
 {
+    unsetenv("CYCLONEDDS_URI"); // tests stay on loopback, whatever their user works with
     constexpr std::uint32_t domains = 200;
     const auto first = static_cast<std::uint32_t>(getpid());
     for (std::uint32_t i = 0; i < domains; ++i) {
