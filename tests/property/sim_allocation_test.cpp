@@ -1,6 +1,10 @@
+#include <chrono>
+#include <mutex>
 #include <new>
 #include <ostream>
+#include <set>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -37,11 +41,27 @@ Simulation::Options counting_allocations()
     return {.isa = {}, .tick = [] { return std::int64_t(allocations()) * 1'000'000; }};
 }
 
+/// Lets every thread of the team take part: one that joins it for the first time takes memory of its own.
+void gather_team()
+{
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    for (int round = 0; round < 1000 && seen.size() < std::size_t(thread_count); ++round) {
+        for_each_task(64, [&](std::size_t) {
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+            const std::lock_guard lock(mutex);
+            seen.insert(std::this_thread::get_id());
+        });
+    }
+    ASSERT_GE(seen.size(), std::size_t(thread_count));
+}
+
 TEST_P(AllocationFree, InEveryPhaseOnceSteady)
 {
     for (const Simulation::Request request : {Simulation::Request{}, {.clusters = true, .conserved = true}}) {
         SCOPED_TRACE(request.clusters ? "clusters and conserved quantities asked for" : "nothing asked for");
         ThreadTeam(thread_count).run([&] {
+            gather_team();
             Simulation simulation(GetParam().settings, GetParam().initial, {});
             for (int frame = 0; frame < warm_up_frames; ++frame)
                 simulation.step(request);
@@ -56,6 +76,7 @@ TEST_P(AllocationFree, InEveryPhaseOnceSteady)
 TEST_P(AllocationFree, InAllPhasesButCommandsAndEmitFromTheStart)
 {
     ThreadTeam(thread_count).run([&] {
+        gather_team();
         Simulation simulation(GetParam().settings, GetParam().initial, counting_allocations());
         for (int frame = 1; frame <= warm_up_frames; ++frame) {
             StepProfile taken = simulation.step({}).profile;
