@@ -64,52 +64,61 @@ TEST_F(ReformingTest, ReformsOnlyPoolsThatAreDue)
     EXPECT_GT(counts.due_pools, 0U);
 }
 
-TEST_F(ReformingTest, AStrayJoinsTheNearestClusterOfAPoolThatIsNotDue)
+/// A pool that is due has a member that is by now in the next cell, where a cluster is in the midst of its
+/// life.
+class StrayTest : public ReformingTest {
+protected:
+    /// `host_size` particles within 0.5 of (6, 2, 2), `spare` free rows, a member at `place` that strays.
+    void stray(std::size_t host_size, std::uint32_t spare, const Vector3d& place)
+    {
+        reforming.found(world.tree, test::ball(11, 0.5, 0, 1, {2, 2, 2}), 0);
+        host = world.add(test::ball(host_size, 0.5, 0, 2, {6, 2, 2}), 0, spare);
+        world.store.clusters.variance[host.index] = 0.15; // 3/5 of the squared radius
+        const PoolId due = locate(world.region(), {2, 2, 2});
+        pool = world.store.clusters.pool[host.index];
+        const ClusterSlot visitor =
+            world.add({{.position = place, .velocity = {0, 0, 0}, .id = 99, .mass = 1}});
+        unlink(world.region(), world.store.clusters, visitor);
+        link(world.region(), world.store.clusters, due, visitor);
+        world.region().pools[due.index].due_frame = 1;
+        world.region().pools[pool.index].turn_frame = 0;
+        world.region().pools[pool.index].due_frame = 50;
+        reforming.update(world.tree, 1, counts);
+        EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+        EXPECT_EQ(counts.strays_inserted + counts.strays_founding, 1U);
+    }
+
+    ClusterSlot host;
+    PoolId pool;
+};
+
+TEST_F(StrayTest, JoinsTheNearestClusterOfAPoolThatIsNotDue)
 {
-    // Cell 0 is due; one of its particles will be in cell 1, whose clusters are in the midst of their lives.
-    ParticleSet particles = test::ball(12, 0.5, 0, 1, {2, 2, 2});
-    ParticleSet others = test::ball(8, 0.5, 0, 2, {6, 2, 2});
-    for (Particle& other : others)
-        other.id += 100;
-    particles.insert(particles.end(), others.begin(), others.end());
-    particles.front().position = {5.9, 2, 2};
-    particles.front().velocity = {0, 0, 0};
-    reforming.found(world.tree, std::span(particles).subspan(1), 0);
-    const ClusterSlot host = world.region().pools[locate(world.region(), {6, 2, 2}).index].first;
-    world.store.clusters.variance[host.index] = 0.15; // 3/5 of the squared radius
-    const ClusterSlot visitor = world.add({particles.front()});
-    unlink(world.region(), world.store.clusters, visitor);
-    const PoolId due = locate(world.region(), {2, 2, 2});
-    link(world.region(), world.store.clusters, due, visitor);
-    world.region().pools[due.index].due_frame = 1;
-    world.region().pools[locate(world.region(), {6, 2, 2}).index].due_frame = 50;
-    reforming.update(world.tree, 1, counts);
+    stray(8, 4, {5.5, 2, 2}); // two rms radii are 0.77
     EXPECT_EQ(counts.strays_inserted, 1U);
-    EXPECT_EQ(counts.strays_founding, 0U);
     EXPECT_EQ(world.store.clusters.count[host.index], 9U);
-    EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+    EXPECT_EQ(world.region().pools[pool.index].members, 9U);
 }
 
-// As a stray that would stretch it, or finds it full, founds one of its own.
-TEST_F(ReformingTest, AStrayThatNoClusterIsNearFoundsOne)
+TEST_F(StrayTest, FoundsOneWhereTheNearestIsTooFar)
 {
-    ParticleSet particles = test::ball(24, 0.5, 0, 1, {2, 2, 2});
-    particles.front().position = {7.9, 3.9, 3.9};
-    reforming.found(world.tree, std::span(particles).subspan(1), 0);
-    world.add(test::ball(2, 0.1, 0, 3, {4.2, 0.2, 0.2}));
-    const ClusterSlot visitor = world.add({particles.front()});
-    unlink(world.region(), world.store.clusters, visitor);
-    const PoolId due = locate(world.region(), {2, 2, 2});
-    link(world.region(), world.store.clusters, due, visitor);
-    world.region().pools[due.index].due_frame = 1;
-    const PoolId host = locate(world.region(), {6, 2, 2});
-    world.region().pools[host.index].turn_frame = 0;
-    world.region().pools[host.index].due_frame = 50;
-    reforming.update(world.tree, 1, counts);
-    EXPECT_EQ(counts.strays_inserted, 0U);
+    stray(8, 4, {5, 2, 2});
     EXPECT_EQ(counts.strays_founding, 1U);
-    EXPECT_EQ(world.region().pools[host.index].clusters, 2U);
-    EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+    EXPECT_EQ(world.region().pools[pool.index].clusters, 2U);
+}
+
+TEST_F(StrayTest, FoundsOneWhereTheNearestHasTheMaximumSize)
+{
+    stray(16, 4, {5.9, 2, 2});
+    EXPECT_EQ(counts.strays_founding, 1U);
+    EXPECT_EQ(world.store.clusters.count[host.index], 16U);
+}
+
+TEST_F(StrayTest, FoundsOneWhereTheNearestHasNoRowLeft)
+{
+    stray(8, 0, {5.9, 2, 2});
+    EXPECT_EQ(counts.strays_founding, 1U);
+    EXPECT_EQ(world.store.clusters.count[host.index], 8U);
 }
 
 TEST_F(ReformingTest, APoolOfNewbornsLivesShortlyUntilTheirTidesAreKnown)
