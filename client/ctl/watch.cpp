@@ -78,12 +78,15 @@ ExitCode run_watch(const CommandLine& line, const std::stop_token& stop)
     }
     if (!line.json && terminal_width() > 0)
         std::puts("");
-    const bool present = connection.status().contact != client::Contact::NoServer;
-    if (!present)
+    if (stop.stop_requested())
+        return ExitCode::Success;
+    if (connection.status().contact == client::Contact::NoServer) {
         complain(connection.status().reason);
-    else if (line.clusters)
+        return ExitCode::NoServer;
+    }
+    if (line.clusters)
         warn_of_large_samples(connection);
-    return present ? ExitCode::Success : ExitCode::NoServer;
+    return ExitCode::Success;
 }
 
 } // namespace slod::ctl

@@ -145,7 +145,7 @@ TEST_F(WirePublish, ALateJoinerGetsTheServersStateAtOnce)
         return early.server() != nullptr;
     }));
     int meetings = 0;
-    for (int join = 0; join < 5 && meetings == 0; ++join) {
+    for (int join = 0; join < 20 && meetings == 0; ++join) {
         early.wait(std::stop_token(), 1s); // for a fresh heartbeat
         const std::uint64_t known = early.server()->heartbeat;
         Connection late = connect({});
@@ -158,8 +158,8 @@ TEST_F(WirePublish, ALateJoinerGetsTheServersStateAtOnce)
     EXPECT_GT(meetings, 0);
 }
 
-// The child reads clusters and is frozen in the middle. Every offer is accepted, each frame's clusters are
-// either published or counted as skipped, DDS refuses nothing, and another reader goes on.
+// The child reads clusters and is frozen in the middle. Every offer is accepted, frames are published or
+// counted as skipped, DDS refuses nothing, another reader goes on; thawed, the child is back.
 TEST_F(WirePublish, AFrozenReaderDelaysNobody)
 {
     Publisher publisher(settings, made_up_session());
@@ -188,7 +188,11 @@ TEST_F(WirePublish, AFrozenReaderDelaysNobody)
     EXPECT_TRUE(offer_until(publisher, reader, [&] { return reader.complete_frames() > frames_before + 5; }));
     EXPECT_GT(handled(), 0U);
     EXPECT_EQ(publisher.counters().samples_refused, 0U);
+
+    const std::size_t printed = frozen.output().size();
     frozen.signal(SIGCONT);
+    const auto is_back = [&] { return frozen.output().find("\"live\"", printed) != std::string::npos; };
+    EXPECT_TRUE(offer_until(publisher, reader, is_back));
     frozen.signal(SIGINT);
     EXPECT_EQ(frozen.wait(), 0) << frozen.errors();
 }
