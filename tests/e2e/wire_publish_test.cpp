@@ -2,7 +2,6 @@
 #include "unit/wire_snapshots.hpp"
 
 #include <chrono>
-#include <memory>
 #include <signal.h>
 #include <stop_token>
 
