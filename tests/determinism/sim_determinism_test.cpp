@@ -1,11 +1,7 @@
-#include <chrono>
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <ostream>
-#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "sim/simulation.hpp"
 #include "simd/kernels.hpp"
+#include "support/full_team.hpp"
 #include "support/small_scenes.hpp"
 
 // The state has the same bits whatever runs it: any number of threads, any instruction set, any run. Hashes
@@ -133,19 +130,7 @@ TEST(DeterminismScenes, MakeEverythingHappen)
 // On a machine of few cores the other tests would say little if the team were quietly cut down to them.
 TEST(ThreadTeamOfSixteen, WorksWithMoreThreadsThanThreeOrFour)
 {
-    std::mutex mutex;
-    std::set<std::thread::id> seen;
-    constexpr int enough = 8;
-    ThreadTeam(16).run([&] {
-        // Workers come as they please; a thousand rounds of sixteen short naps are far more than they need.
-        for (int round = 0; round < 1000 && seen.size() < enough; ++round)
-            for_each_task(64, [&](std::size_t) {
-                std::this_thread::sleep_for(std::chrono::microseconds(200));
-                const std::lock_guard lock(mutex);
-                seen.insert(std::this_thread::get_id());
-            });
-    });
-    EXPECT_GE(seen.size(), enough);
+    ThreadTeam(16).run([&] { EXPECT_GE(gather_team(8), 8U); });
 }
 
 } // namespace

@@ -1,16 +1,13 @@
-#include <chrono>
-#include <mutex>
 #include <new>
 #include <ostream>
-#include <set>
 #include <string>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "core/parallel.hpp"
 #include "sim/simulation.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/full_team.hpp"
 #include "support/small_scenes.hpp"
 
 // Memory is taken in the commands and emit phases, which provide it for the others, and once a scene has
@@ -24,7 +21,7 @@ void PrintTo(const SmallScene& scene, std::ostream* out)
 
 namespace {
 
-constexpr int thread_count = 4;
+constexpr std::size_t thread_count = 4;
 constexpr int warm_up_frames = 200; ///< twelve of the longest lives; the fountains are full after 40
 constexpr int steady_frames = 400;
 
@@ -41,27 +38,12 @@ Simulation::Options counting_allocations()
     return {.isa = {}, .tick = [] { return std::int64_t(allocations()) * 1'000'000; }};
 }
 
-/// Lets every thread of the team take part: one that joins it for the first time takes memory of its own.
-void gather_team()
-{
-    std::mutex mutex;
-    std::set<std::thread::id> seen;
-    for (int round = 0; round < 1000 && seen.size() < std::size_t(thread_count); ++round) {
-        for_each_task(64, [&](std::size_t) {
-            std::this_thread::sleep_for(std::chrono::microseconds(200));
-            const std::lock_guard lock(mutex);
-            seen.insert(std::this_thread::get_id());
-        });
-    }
-    ASSERT_GE(seen.size(), std::size_t(thread_count));
-}
-
 TEST_P(AllocationFree, InEveryPhaseOnceSteady)
 {
     for (const Simulation::Request request : {Simulation::Request{}, {.clusters = true, .conserved = true}}) {
         SCOPED_TRACE(request.clusters ? "clusters and conserved quantities asked for" : "nothing asked for");
-        ThreadTeam(thread_count).run([&] {
-            gather_team();
+        ThreadTeam(int(thread_count)).run([&] {
+            ASSERT_GE(gather_team(thread_count), thread_count); // one that joins late takes memory of its own
             Simulation simulation(GetParam().settings, GetParam().initial, {});
             for (int frame = 0; frame < warm_up_frames; ++frame)
                 simulation.step(request);
@@ -75,8 +57,8 @@ TEST_P(AllocationFree, InEveryPhaseOnceSteady)
 
 TEST_P(AllocationFree, InAllPhasesButCommandsAndEmitFromTheStart)
 {
-    ThreadTeam(thread_count).run([&] {
-        gather_team();
+    ThreadTeam(int(thread_count)).run([&] {
+        ASSERT_GE(gather_team(thread_count), thread_count);
         Simulation simulation(GetParam().settings, GetParam().initial, counting_allocations());
         for (int frame = 1; frame <= warm_up_frames; ++frame) {
             StepProfile taken = simulation.step({}).profile;
@@ -95,6 +77,7 @@ TEST(AllocationCounter, CountsEveryNew)
     // Called by name: a compiler may leave out the new and delete of an object nobody uses.
     const auto plain = [] { operator delete(operator new(8)); };
     const auto array = [] { operator delete[](operator new[](8)); };
+    const auto without_exceptions = [] { operator delete(operator new(8, std::nothrow), std::nothrow); };
     const auto aligned = [] {
         constexpr std::align_val_t line{64};
         operator delete(operator new(8, line), line);
@@ -106,6 +89,7 @@ TEST(AllocationCounter, CountsEveryNew)
     };
     EXPECT_EQ(count(plain), 1U);
     EXPECT_EQ(count(array), 1U);
+    EXPECT_EQ(count(without_exceptions), 1U);
     EXPECT_EQ(count(aligned), 1U);
     EXPECT_GE(count([&] { for_each_task(1000, [&](std::size_t) { plain(); }); }), 1000U);
 }

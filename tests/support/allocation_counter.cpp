@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <new>
 
+// Every form that may be called is defined: the library's own forms for arrays and without exceptions call
+// the plain ones, but those of AddressSanitizer, which it would take in their place, do not.
 namespace {
 
 std::atomic<std::uint64_t> calls{0};
@@ -11,6 +13,22 @@ std::atomic<std::uint64_t> calls{0};
 void* counted(void* memory)
 {
     ++calls;
+    return memory;
+}
+
+void* take(std::size_t size) noexcept
+{
+    return counted(std::malloc(size));
+}
+
+void* take(std::size_t size, std::align_val_t alignment) noexcept
+{
+    const auto step = std::size_t(alignment);
+    return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
+}
+
+void* or_throw(void* memory)
+{
     if (memory == nullptr)
         throw std::bad_alloc();
     return memory;
@@ -23,20 +41,42 @@ std::uint64_t slod::test::allocations()
     return calls;
 }
 
-// The forms for arrays and for nothrow call these.
-
 void* operator new(std::size_t size)
 {
-    return counted(std::malloc(size));
+    return or_throw(take(size));
+}
+
+void* operator new[](std::size_t size)
+{
+    return or_throw(take(size));
 }
 
 void* operator new(std::size_t size, std::align_val_t alignment)
 {
-    const auto step = std::size_t(alignment);
-    return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
+    return or_throw(take(size, alignment));
+}
+
+void* operator new[](std::size_t size, std::align_val_t alignment)
+{
+    return or_throw(take(size, alignment));
+}
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+    return take(size);
+}
+
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
+{
+    return take(size);
 }
 
 void operator delete(void* memory) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete[](void* memory) noexcept
 {
     std::free(memory);
 }
@@ -46,12 +86,37 @@ void operator delete(void* memory, std::size_t) noexcept
     std::free(memory);
 }
 
+void operator delete[](void* memory, std::size_t) noexcept
+{
+    std::free(memory);
+}
+
 void operator delete(void* memory, std::align_val_t) noexcept
 {
     std::free(memory);
 }
 
+void operator delete[](void* memory, std::align_val_t) noexcept
+{
+    std::free(memory);
+}
+
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete(void* memory, const std::nothrow_t&) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete[](void* memory, const std::nothrow_t&) noexcept
 {
     std::free(memory);
 }
