@@ -25,6 +25,8 @@ struct MotionSettings {
     double clock = 0.2;              ///< tau: a map lives tau / sqrt(|tidal tensor|)
     std::uint32_t shortest_life = 2; ///< frames
     std::uint32_t longest_life = 64; ///< frames
+
+    friend bool operator==(const MotionSettings&, const MotionSettings&) = default;
 };
 
 template <class Visitor>

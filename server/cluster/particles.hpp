@@ -29,6 +29,8 @@ using ParticleSet = std::vector<Particle>;
 struct ParticleKind {
     std::string name;     ///< [a-z0-9_-]{1,32}
     double softening = 0; ///< Plummer softening length eps; a pair is softened by (eps_i^2 + eps_j^2) / 2
+
+    friend bool operator==(const ParticleKind&, const ParticleKind&) = default;
 };
 
 } // namespace slod

@@ -78,7 +78,9 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
         grouping_.place[i] = born.particle.position + ahead * born.particle.velocity;
     }
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
-    const std::uint16_t region = tree.region_at(grouping_.particles.front().position);
+    const Particle& founder = grouping_.particles.front();
+    const RegionRow region =
+        tree.region_at({founder.position, double(founder.mass), founder.velocity.norm()});
     const std::uint32_t most = tree.subtrees[region].max_cluster_size();
     const std::uint32_t parts = clusters_for(count, most);
     const bool open = parts == 1 && count < most;
@@ -88,7 +90,7 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     const std::span<const DivisionKey> keys(grouping_.keys);
     for (std::uint32_t part = 0; part < parts; ++part) {
         const ClusterSlot slot = grouping_.slots[part];
-        const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
+        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
         const std::uint32_t begin = part_begin(count, parts, part);
         const std::span<const Newborn> founders = std::span(newborns_).subspan(first);

@@ -17,6 +17,9 @@ public:
     /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped.
     Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life);
 
+    /// Newborns fly through other fields from here on.
+    void set_fields(const UniformFields& fields) { fields_ = fields; }
+
     /// A cluster formed in this frame, and the mean age of its members at the frame's end.
     struct NewCluster {
         ClusterId id;

@@ -10,16 +10,22 @@ namespace slod {
 
 struct UniformGravitySettings {
     Vector3d acceleration{0, 0, -9.81}; ///< scene length / time^2
+
+    friend bool operator==(const UniformGravitySettings&, const UniformGravitySettings&) = default;
 };
 
 /// Air resistance proportional to the velocity relative to the air.
 struct LinearDragSettings {
     double rate = 0.1; ///< 1 / time
+
+    friend bool operator==(const LinearDragSettings&, const LinearDragSettings&) = default;
 };
 
 /// The air's velocity; acts through the drag alone.
 struct UniformWindSettings {
     Vector3d velocity{0, 0, 0}; ///< scene length / time
+
+    friend bool operator==(const UniformWindSettings&, const UniformWindSettings&) = default;
 };
 
 /// Throws out particles of one kind from a point, within a cone about a direction.
@@ -36,6 +42,8 @@ struct EmitterSettings {
     double particle_mass = 1;                                  ///< scene mass
     double start = 0;                                          ///< time of the first particle
     double stop = std::numeric_limits<double>::infinity();     ///< no particle from here on
+
+    friend bool operator==(const EmitterSettings&, const EmitterSettings&) = default;
 };
 
 template <class Visitor>

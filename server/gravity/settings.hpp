@@ -24,6 +24,8 @@ struct GravitySettings {
     double size_softening = 0.1; ///< c in e^2 = eps^2 + c (s_i + s_j), s the position variance
     bool closure = true;         ///< members attract each other as a homogeneous ball
     Precision precision = Precision::Mixed;
+
+    friend bool operator==(const GravitySettings&, const GravitySettings&) = default;
 };
 
 template <class Visitor>

@@ -21,7 +21,7 @@ Complaint assign(double& target, const Field& field, const toml::node& node);
 Complaint assign(std::string& target, const Field& field, const toml::node& node);
 Complaint assign(Vector3d& target, const Field& field, const toml::node& node);
 
-template <std::unsigned_integral T>
+template <std::integral T>
 Complaint assign(T& target, const Field& field, const toml::node& node)
 {
     const Range range = range_of<T>(field);

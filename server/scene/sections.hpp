@@ -42,6 +42,7 @@ void for_each_section(Scene& scene, Visitor&& visit)
     visit(Section{"motion", "How particles move with their cluster."}, simulation.motion);
     visit(Section{"background", "Partitioning of all space that no other region of interest holds."},
           simulation.background);
+    visit(Section{"region", "Regions of interest with a partitioning of their own."}, simulation.regions);
     visit(Section{"gravity", "The particles' attraction for each other."}, simulation.gravity);
     visit(Section{"uniform_gravity", "The same acceleration for everything."}, simulation.uniform_gravity);
     visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);

@@ -22,11 +22,28 @@ void Simulation::State::observe(const Request& request)
     snapshot.counts.particles = particle_count;
     snapshot.counts.clusters = store.clusters.alive_count();
     snapshot.counts.pools = tree.pool_count();
+    count_regions();
     snapshot.conserved = {};
     if (request.conserved)
         snapshot.conserved = conserved_quantities(store, frame);
     if (request.clusters)
         copy_clusters();
+}
+
+void Simulation::State::count_regions()
+{
+    snapshot.regions.clear();
+    const auto add = [&](RegionRow row) {
+        RegionLoad load{.row = row, .clusters = 0, .particles = 0};
+        for (const Pool& pool : tree.subtrees[row].pools) {
+            load.clusters += pool.node.valid() ? pool.clusters : 0;
+            load.particles += pool.node.valid() ? pool.members : 0;
+        }
+        snapshot.regions.push_back(load);
+    };
+    for (const RegionIndex::Entry& entry : tree.index.entries())
+        add(entry.row);
+    add(background_row);
 }
 
 void Simulation::State::copy_clusters()

@@ -30,7 +30,10 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
 {
     const bool position_dependent = settings.gravity.has_value();
     const Motion motion = settings.motion.motion;
-    plan.unclustered = settings.background.max_cluster_size < 2;
+    const auto single = [](const RegionSettings& partition) { return partition.max_cluster_size < 2; };
+    const auto of_singles = [&](const RegionOfInterest& region) { return single(region.partition); };
+    plan.unclustered = single(settings.background) &&
+                       std::all_of(settings.regions.begin(), settings.regions.end(), of_singles);
     if (plan.unclustered || motion == Motion::Rigid)
         plan.map = MapKind::Identity;
     else if (position_dependent && motion == Motion::Flow)
@@ -39,7 +42,7 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
         plan.map = MapKind::Scalar;
     plan.map_is_exact = plan.unclustered || (plan.map == MapKind::Scalar && !position_dependent);
     plan.clocked = !plan.map_is_exact && plan.map != MapKind::Identity;
-    plan.merging = !plan.unclustered && motion == Motion::Rigid;
+    plan.merging = !plan.unclustered && (motion == Motion::Rigid || !settings.regions.empty());
 }
 
 void decide_phases(Plan& plan, const SimulationSettings& settings)
@@ -50,7 +53,7 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::OpenKick, kicked);
     runs(Phase::Propagate, true);
     runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives);
-    runs(Phase::Update, kicked || !plan.unclustered);
+    runs(Phase::Update, kicked || !plan.unclustered || !settings.regions.empty());
     runs(Phase::Moments, kicked);
     runs(Phase::Forces, kicked);
     runs(Phase::CloseKick, kicked);

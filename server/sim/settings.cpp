@@ -18,12 +18,6 @@ std::string in_quotes(const std::string& text)
     return '"' + text + '"';
 }
 
-bool is_name(std::string_view name)
-{
-    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789_-";
-    return !name.empty() && name.size() <= 32 && name.find_first_not_of(allowed) == std::string_view::npos;
-}
-
 /// Names are valid, and each is the first of its sort.
 template <class Named>
 void check_names(const std::string& table, const std::vector<Named>& all, Problems& found)
@@ -86,7 +80,29 @@ void check_lives(const MotionSettings& motion, Problems& found)
                         "; use at most that.");
 }
 
+void check_regions(const std::vector<RegionOfInterest>& regions, Problems& found)
+{
+    check_names("region", regions, found);
+    if (regions.size() > max_regions)
+        found.push_back("region appears " + std::to_string(regions.size()) + " times; use at most " +
+                        std::to_string(max_regions) + ".");
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        const std::string key = "region." + std::to_string(i) + ".";
+        if (regions[i].name == background_name)
+            found.push_back(key + "name = " + in_quotes(regions[i].name) +
+                            " is the region of all that no other one holds, [background]; choose another.");
+        for (const std::string& problem : problems(regions[i]))
+            found.push_back(key + problem);
+    }
+}
+
 } // namespace
+
+bool is_name(std::string_view name)
+{
+    constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+    return !name.empty() && name.size() <= 32 && name.find_first_not_of(allowed) == std::string_view::npos;
+}
 
 Problems problems(const SimulationSettings& settings)
 {
@@ -95,6 +111,7 @@ Problems problems(const SimulationSettings& settings)
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);
+    check_regions(settings.regions, found);
     check_lives(settings.motion, found);
     if (settings.uniform_wind && !settings.linear_drag)
         found.push_back(

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "cluster/motion.hpp"
@@ -9,6 +10,7 @@
 #include "core/settings.hpp"
 #include "effects/settings.hpp"
 #include "gravity/settings.hpp"
+#include "tree/region.hpp"
 #include "tree/settings.hpp"
 
 namespace slod {
@@ -24,10 +26,14 @@ struct Units {
     {
         return 6.67430e-11 * mass_kg * time_s * time_s / (length_m * length_m * length_m);
     }
+
+    friend bool operator==(const Units&, const Units&) = default;
 };
 
 struct TimeSettings {
     double step = 1.0 / 60; ///< one frame's simulated time
+
+    friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
 };
 
 /// All that the simulation needs to know of a scene. What is absent (an effect, an emitter) is not
@@ -38,7 +44,8 @@ struct SimulationSettings {
     TimeSettings time;
     std::vector<ParticleKind> kinds; ///< at least one
     MotionSettings motion;
-    RegionSettings background; ///< the region of interest that holds whatever no other one does
+    RegionSettings background; ///< of all that no region of interest holds
+    std::vector<RegionOfInterest> regions;
     std::optional<GravitySettings> gravity;
     std::optional<UniformGravitySettings> uniform_gravity;
     std::optional<LinearDragSettings> linear_drag;
@@ -46,8 +53,14 @@ struct SimulationSettings {
     std::vector<EmitterSettings> emitters;
 };
 
+/// Regions of interest at one time, besides the background.
+inline constexpr std::size_t max_regions = 4096;
+
 /// What no single field's range can say is wrong with the settings together; empty when nothing is.
 Problems problems(const SimulationSettings& settings);
+
+/// Whether it is a name: 1 to 32 of a-z, 0-9, _ and -.
+bool is_name(std::string_view name);
 
 template <class Visitor>
 void for_each_field(Units& units, Visitor&& visit)

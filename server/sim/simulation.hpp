@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "cluster/particles.hpp"
 #include "sim/plan.hpp"
@@ -34,6 +35,24 @@ public:
         bool clusters = false;
         bool conserved = false;
     };
+
+    /// A region of interest as it is. The last one of regions() is the background.
+    struct Region {
+        RegionRow row; ///< as in ClusterStates::region
+        RegionOfInterest settings;
+    };
+
+    std::vector<Region> regions() const; ///< in order of precedence
+
+    // Changes between frames; the next step has them. What is asked for wrongly is refused with a sentence
+    // per problem, the key first, and changes nothing.
+    Problems add_region(const RegionOfInterest& region);
+    Problems change_region(const RegionOfInterest& region); ///< the one of its name, or the background
+    Problems remove_region(std::string_view name);          ///< its clusters go to the others
+
+    /// Takes new values of the settings that may change while the scene runs: gravity, the uniform fields'
+    /// acceleration and wind; which effects there are may not. Regions have functions of their own.
+    Problems change_settings(const SimulationSettings& wanted);
 
     /// One frame: one fixed time step. The snapshot is valid until the next call.
     const Snapshot& step(const Request& request);

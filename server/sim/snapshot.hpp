@@ -59,13 +59,20 @@ struct ClusterStates {
     std::size_t size() const { return position.size(); }
 };
 
+/// What a region of interest holds.
+struct RegionLoad {
+    RegionRow row;
+    std::uint64_t clusters, particles;
+};
+
 /// One frame's outcome.
 struct Snapshot {
     std::uint64_t frame = 0; ///< frames completed since the start
     double time = 0;         ///< scene time at the end of the frame
     FrameCounts counts;
     ConservedQuantities conserved;
-    StepProfile profile; ///< of this frame
+    StepProfile profile;             ///< of this frame
+    std::vector<RegionLoad> regions; ///< in order of precedence, the background last
     ClusterStates clusters;
 };
 

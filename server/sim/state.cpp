@@ -45,9 +45,10 @@ double background_cell_side(const RegionSettings& background, const ParticleSet&
 
 SlodTree tree_of(const SimulationSettings& settings, const ParticleSet& initial)
 {
-    SlodTree tree;
-    tree.subtrees.emplace_back(settings.background, std::uint16_t{0},
-                               background_cell_side(settings.background, initial));
+    SlodTree tree(settings.background, background_cell_side(settings.background, initial));
+    for (const RegionOfInterest& region : settings.regions)
+        open_region(tree, region);
+    settle(tree);
     return tree;
 }
 
@@ -103,7 +104,14 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 void Simulation::State::open_frame()
 {
     store.members.recycle(frame);
+    if (!tree.changes.empty())
+        settle(tree);
     make_room();
+    if (forces_stale) {
+        measure_moments();
+        evaluate_forces();
+        forces_stale = false;
+    }
 }
 
 void Simulation::State::make_room()
@@ -113,7 +121,7 @@ void Simulation::State::make_room()
     store.members.reserve(moving + moving / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
     for (Subtree& subtree : tree.subtrees)
-        reserve(subtree, subtree.pool_count() / 2 + 256);
+        reserve(subtree, subtree.pool_count() / 2 + (subtree.region == background_row ? 256 : 32));
     if (plan.clocked)
         reforming.reserve(tree, moving);
     else

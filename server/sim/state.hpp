@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string_view>
+
 #include "cluster/forming.hpp"
 #include "effects/emission.hpp"
 #include "gravity/force_view.hpp"
@@ -26,7 +29,12 @@ struct Simulation::State {
     void measure_moments();
     void evaluate_forces();
     void observe(const Request& request);
+    void count_regions();
     void copy_clusters();
+
+    std::optional<RegionRow> find_region(std::string_view name) const;
+    void take_up_merging();
+    void set_fields(); ///< from the settings
 
     /// Runs and times a phase, if the plan has it.
     template <class Work>
@@ -59,7 +67,8 @@ struct Simulation::State {
     Emission emission;
     ForceView view;
 
-    std::uint64_t frame = 0; ///< frames completed, or being completed within a step
+    bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
+    std::uint64_t frame = 0;   ///< frames completed, or being completed within a step
     std::uint64_t particle_count = 0;
     Snapshot snapshot;
 };

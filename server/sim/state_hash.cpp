@@ -97,6 +97,19 @@ void add_subtree(Hasher& hasher, const Subtree& tree)
     }
 }
 
+void add_region(Hasher& hasher, const SlodTree::Region& region)
+{
+    hasher.add(region.number);
+    hasher.add(region.open);
+    RegionOfInterest settings = region.settings;
+    for_each_field(settings, [&]<class T>(const Field&, const T& value) {
+        if constexpr (std::is_same_v<T, std::string>)
+            hasher.add(value.data(), value.size());
+        else
+            hasher.add(value);
+    });
+}
+
 } // namespace
 
 std::uint64_t hash_state(const ClusterStore& store, const SlodTree& tree, const RunState& run)
@@ -107,6 +120,8 @@ std::uint64_t hash_state(const ClusterStore& store, const SlodTree& tree, const 
             add_cluster(hasher, store, slot);
     for (const Subtree& subtree : tree.subtrees)
         add_subtree(hasher, subtree);
+    for (const SlodTree::Region& region : tree.regions)
+        add_region(hasher, region);
     hasher.add(store.uniform_mass);
     hasher.add(run.frame);
     hasher.add(run.random_counters.data(), run.random_counters.size());

@@ -9,8 +9,9 @@ namespace slod {
 
 std::size_t CellMap::home(const Cell& cell) const
 {
-    // Multiplicative mixing (Knuth 1998, vol. 3, 6.4) of the three coordinates.
-    std::uint64_t hash = std::uint32_t(cell.x) * 0x9E3779B97F4A7C15ULL;
+    // Multiplicative mixing (Knuth 1998, vol. 3, 6.4) of the coordinates.
+    std::uint64_t hash =
+        (std::uint32_t(cell.x) ^ std::uint64_t(std::uint32_t(cell.bin)) << 32) * 0x9E3779B97F4A7C15ULL;
     hash = (hash ^ (hash >> 29) ^ std::uint32_t(cell.y)) * 0xBF58476D1CE4E5B9ULL;
     hash = (hash ^ (hash >> 32) ^ std::uint32_t(cell.z)) * 0x94D049BB133111EBULL;
     return std::size_t(hash ^ (hash >> 31)) & mask();

@@ -9,9 +9,10 @@
 
 namespace slod {
 
-/// A cell of an unbounded uniform grid, by integer coordinates.
+/// A cell of an unbounded uniform grid, by integer coordinates, and the bin of a physical quantity above it.
 struct Cell {
     std::int32_t x = 0, y = 0, z = 0;
+    std::int32_t bin = 0;
 
     friend constexpr auto operator<=>(const Cell&, const Cell&) = default;
 };

@@ -10,9 +10,11 @@
 namespace slod {
 namespace {
 
-constexpr std::size_t block = 1024;           ///< clusters planned by one task
-constexpr std::uint64_t revision_period = 8;  ///< frames between revisions of the k-d trees
-constexpr std::uint64_t merge_period = 16;    ///< every pool looks for merges once in so many frames
+constexpr std::size_t block = 1024;          ///< clusters planned by one task
+constexpr std::uint64_t revision_period = 8; ///< frames between revisions of the k-d trees
+constexpr std::uint64_t merge_period = 16;   ///< every pool looks for merges once in so many frames
+/// Frames over which a region's clusters are split when its maximum size falls: a sweep, not a stroke.
+constexpr std::uint64_t split_period = 8;
 constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit; apart, as clusters come and go
 
 } // namespace
@@ -35,6 +37,7 @@ void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& count
     split(tree, counts);
     if (merging_)
         merge(tree, counts);
+    free_closed(tree);
     if (frame % revision_period == 0)
         revise(tree);
 }
@@ -63,7 +66,7 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot)
     const ClusterTable& clusters = context_.store.clusters;
     const Subtree& subtree = tree.subtrees[clusters.region[slot]];
     const std::uint32_t count = clusters.count[slot];
-    if (count > subtree.max_cluster_size())
+    if (count > subtree.max_cluster_size() && (slot + context_.frame) % split_period == 0)
         return Action::Split;
     if (count > 1 && std::isfinite(subtree.settings.max_breadth)) {
         const Symmetric3 extent = map_position_moments(
@@ -72,14 +75,27 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot)
         if (wider_than(subtree.settings.max_breadth, extent, weight))
             return Action::Split;
     }
-    const Vector3d& x = clusters.position[slot];
+    return crosses(tree, slot) ? Action::Cross : Action::Stay;
+}
+
+/// Whether the cluster has left its leaf or belongs to another region; where it goes is in `targets_`. Other
+/// regions are asked only where the leaf's mark says that there are any; else the search is bottom-up.
+bool Regrouping::crosses(const SlodTree& tree, std::size_t slot)
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    const Subtree& subtree = tree.subtrees[clusters.region[slot]];
     const PoolId pool = clusters.pool[slot];
-    if (subtree.nodes[subtree.pools[pool.index].node.index].box.contains(x))
-        return Action::Stay;
-    const std::uint16_t region = tree.region_at(x);
-    targets_[slot] =
-        region == subtree.region ? PoolRef{region, locate_near(subtree, pool, x)} : locate(tree, x);
-    return Action::Cross;
+    const Subject subject = subject_of(clusters, slot);
+    const bool stays = holds(subtree, pool, subject);
+    const bool contested = subtree.nodes[subtree.pools[pool.index].node.index].contested;
+    if (stays && !contested)
+        return false;
+    const RegionRow region = tree.region_at(subject);
+    if (stays && region == subtree.region)
+        return false;
+    targets_[slot] = region == subtree.region ? PoolRef{region, locate_near(subtree, pool, subject)}
+                                              : locate(tree, subject);
+    return true;
 }
 
 void Regrouping::move_crossing(SlodTree& tree, UpdateCounts& counts)
@@ -89,7 +105,7 @@ void Regrouping::move_crossing(SlodTree& tree, UpdateCounts& counts)
         const PoolRef from{clusters.region[slot.index], clusters.pool[slot.index]};
         PoolRef to = targets_[slot.index];
         if (!to.valid())
-            to = locate_or_grow(tree, clusters.position[slot.index]);
+            to = locate_or_grow(tree, subject_of(clusters, slot.index));
         if (to == from)
             continue; // beyond the rim of the grid
         unlink(tree.of(from), clusters, slot);
@@ -128,7 +144,7 @@ void Regrouping::form_from(SlodTree& tree, std::span<const ClusterSlot> ended)
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
     form_groups(grouping_, context_);
     for (const ClusterSlot slot : grouping_.slots) {
-        const PoolRef pool = locate_or_grow(tree, clusters.position[slot.index]);
+        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
     }
 }

@@ -11,11 +11,14 @@ namespace slod {
 
 /// The update of clusters whose maps do not age: those of exact flow maps, of rigid motion (O'Brien et
 /// al. 2001, sections 4.1 and 4.3) and single particles. A cluster whose centre crosses into another leaf
-/// moves to that leaf's pool; one that has become too large or too wide is split; where `merging`, two of
-/// one pool merge when together they are small enough and move alike.
+/// or region moves to that one's pool; one that has become too large or too wide is split; where `merging`,
+/// two of one pool merge when together they are small enough and move alike.
 class Regrouping {
 public:
     Regrouping(bool merging, const UpdateContext& context) : merging_(merging), context_(context) {}
+
+    /// Lets clusters merge from here on, whatever was said at the start.
+    void allow_merging() { merging_ = true; }
 
     /// Provides memory for updates that form `particle_count` particles anew, in the clusters there is room
     /// for.
@@ -29,6 +32,7 @@ private:
 
     void plan(const SlodTree& tree);
     Action action(const SlodTree& tree, std::size_t slot);
+    bool crosses(const SlodTree& tree, std::size_t slot);
     void move_crossing(SlodTree& tree, UpdateCounts& counts);
     void split(SlodTree& tree, UpdateCounts& counts);
     void merge(SlodTree& tree, UpdateCounts& counts);

@@ -1,19 +1,35 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "core/settings.hpp"
 
 namespace slod {
 
+/// A physical quantity by which a grid is divided before it is by place.
+enum class BinBy : std::uint8_t { None, Mass, Speed, Acceleration };
+
+constexpr std::array<std::string_view, 4> names(BinBy)
+{
+    return {"none", "mass", "speed", "acceleration"};
+}
+
 /// The partitioning parameters of one region of interest (O'Brien et al. 2001, section 4.1).
 struct RegionSettings {
     double max_cluster_size = 64; ///< particles per cluster; real-valued, floored when used
     double max_breadth = std::numeric_limits<double>::infinity(); ///< diameter of a cluster, scene length
-    double pool_factor = 4; ///< particles re-formed together, in cluster sizes
-    double speed_ratio = 2; ///< largest ratio of speeds that may merge (lambda)
-    double angle_deg = 30;  ///< largest angle between velocities that may merge (theta)
-    double speed_floor = 0; ///< below it speeds and directions are not compared, scene length / time
+    double pool_factor = 4;     ///< particles re-formed together, in cluster sizes
+    double speed_ratio = 2;     ///< largest ratio of speeds that may merge (lambda)
+    double angle_deg = 30;      ///< largest angle between velocities that may merge (theta)
+    double speed_floor = 0;     ///< below it speeds and directions are not compared, scene length / time
+    BinBy bin_by = BinBy::None; ///< what a cluster's particles are alike in (section 3.3)
+    double bin_floor = 1;       ///< of that quantity: all below it share one bin
+    double bin_ratio = 2;       ///< largest to smallest in each of the others
+
+    friend bool operator==(const RegionSettings&, const RegionSettings&) = default;
 };
 
 template <class Visitor>
@@ -35,6 +51,11 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
     visit(Field{"speed_floor", "length/time", "Clusters slower than this merge whatever their directions.", 0,
                 no_maximum},
           region.speed_floor);
+    visit(Field{"bin_by", "", "A quantity in which the particles of a cluster are alike: it divides first."},
+          region.bin_by);
+    visit(Field{"bin_floor", "", "All below it, in the unit of the quantity, share one bin.", 1e-30, 1e30},
+          region.bin_floor);
+    visit(Field{"bin_ratio", "", "Largest to smallest value within a bin.", 1.01, 1e6}, region.bin_ratio);
 }
 
 } // namespace slod

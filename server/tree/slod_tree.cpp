@@ -1,15 +1,91 @@
 #include "tree/slod_tree.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/assert.hpp"
+#include "core/parallel.hpp"
 
 namespace slod {
+namespace {
 
-std::uint16_t SlodTree::region_at(const Vector3d&) const
+const Box all_space{Vector3d::Constant(-std::numeric_limits<double>::infinity()),
+                    Vector3d::Constant(std::numeric_limits<double>::infinity())};
+
+/// Side of a region's grid cells: the maximum breadth or, when that is unlimited, a power of two that spans
+/// the region, for the k-d trees to refine.
+double cell_side_of(const SlodTree& tree, const RegionOfInterest& region)
 {
-    SLOD_ASSERT(!subtrees.empty());
-    return std::uint16_t(subtrees.size() - 1);
+    if (std::isfinite(region.partition.max_breadth))
+        return region.partition.max_breadth;
+    const double width = RegionTest(region).bounds().size().maxCoeff();
+    if (!std::isfinite(width))
+        return tree.subtrees[background_row].cell_side;
+    return width > 0 ? std::ldexp(1.0, std::ilogb(width) + 1) : 1.0;
+}
+
+bool same_cells(const Subtree& subtree, const RegionSettings& settings, double cell_side)
+{
+    return subtree.cell_side == cell_side && subtree.settings.bin_by == settings.bin_by &&
+           subtree.settings.bin_floor == settings.bin_floor &&
+           subtree.settings.bin_ratio == settings.bin_ratio;
+}
+
+/// Puts the row's clusters into cells of another size or by other bins. Their pools are due at once.
+void lay_cells_anew(SlodTree& tree, RegionRow row, const RegionSettings& settings, double cell_side,
+                    ClusterTable& clusters)
+{
+    Subtree old(settings, row, cell_side);
+    std::swap(old, tree.subtrees[row]);
+    for (const Pool& pool : old.pools) {
+        for (ClusterSlot slot = pool.node.valid() ? pool.first : ClusterSlot{}; slot.valid();) {
+            const ClusterSlot next = clusters.next[slot.index];
+            Subtree& subtree = tree.subtrees[row];
+            link(subtree, clusters, locate_or_grow(subtree, subject_of(clusters, slot.index)), slot);
+            slot = next;
+        }
+    }
+}
+
+bool meet(const Box& a, const Box& b)
+{
+    return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+}
+
+void mark_contested(SlodTree& tree, Subtree& subtree)
+{
+    for_each_block(subtree.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t node = first; node < last; ++node) {
+            Node& marked = subtree.nodes[node];
+            const auto near = [&](const Box& change) { return meet(change, marked.box); };
+            if (std::any_of(tree.changes.begin(), tree.changes.end(), near))
+                marked.contested = tree.index.contested(marked.box, subtree.region);
+        }
+    });
+}
+
+/// A pool whose place changed hands, or whose region is closed, is due at once.
+void end_lives(const SlodTree& tree, Subtree& subtree)
+{
+    const bool closed = !tree.regions[subtree.region].open;
+    for (Pool& pool : subtree.pools) {
+        const auto near = [&](const Box& change) { return meet(change, subtree.nodes[pool.node.index].box); };
+        if (pool.node.valid() && (closed || std::any_of(tree.changes.begin(), tree.changes.end(), near)))
+            pool.due_frame = 0;
+    }
+}
+
+} // namespace
+
+SlodTree::SlodTree(const RegionSettings& background, double cell_side)
+{
+    subtrees.emplace_back(background, background_row, cell_side);
+    Region region{.settings = {}, .number = openings++, .open = true};
+    region.settings.name = background_name;
+    region.settings.partition = background;
+    regions.push_back(region);
 }
 
 std::size_t SlodTree::pool_count() const
@@ -28,16 +104,102 @@ std::size_t SlodTree::pool_capacity() const
     return capacity;
 }
 
-PoolRef locate(const SlodTree& tree, const Vector3d& x)
+RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)
 {
-    const std::uint16_t region = tree.region_at(x);
-    return {region, locate(tree.subtrees[region], x)};
+    std::size_t row = 1;
+    while (row < tree.regions.size() && (tree.regions[row].open || tree.subtrees[row].pool_count() > 0))
+        ++row;
+    SLOD_ASSERT(row <= std::numeric_limits<RegionRow>::max());
+    if (row == tree.regions.size()) {
+        tree.regions.emplace_back();
+        tree.subtrees.emplace_back(region.partition, RegionRow(row), cell_side_of(tree, region));
+    } else {
+        tree.subtrees[row] = Subtree(region.partition, RegionRow(row), cell_side_of(tree, region));
+    }
+    tree.regions[row] = {.settings = region, .number = tree.openings++, .open = true};
+    tree.changes.push_back(RegionTest(region).bounds());
+    return RegionRow(row);
 }
 
-PoolRef locate_or_grow(SlodTree& tree, const Vector3d& x)
+void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region, ClusterTable& clusters)
 {
-    const std::uint16_t region = tree.region_at(x);
-    return {region, locate_or_grow(tree.subtrees[region], x)};
+    SLOD_ASSERT(row < tree.regions.size() && tree.regions[row].open);
+    SlodTree::Region& old = tree.regions[row];
+    Subtree& subtree = tree.subtrees[row];
+    const bool background = row == background_row;
+    const double side = background && !std::isfinite(region.partition.max_breadth)
+                            ? subtree.cell_side
+                            : cell_side_of(tree, region);
+    if (!background) {
+        tree.changes.push_back(RegionTest(old.settings).bounds());
+        tree.changes.push_back(RegionTest(region).bounds());
+    }
+    if (same_cells(subtree, region.partition, side))
+        subtree.settings = region.partition;
+    else
+        lay_cells_anew(tree, row, region.partition, side, clusters);
+    old.settings = region;
+}
+
+void close_region(SlodTree& tree, RegionRow row)
+{
+    SLOD_ASSERT(row != background_row && row < tree.regions.size() && tree.regions[row].open);
+    tree.regions[row].open = false;
+    tree.changes.push_back(RegionTest(tree.regions[row].settings).bounds());
+}
+
+void settle(SlodTree& tree)
+{
+    std::vector<RegionRow> order;
+    for (std::size_t row = 1; row < tree.regions.size(); ++row)
+        if (tree.regions[row].open)
+            order.push_back(RegionRow(row));
+    std::sort(order.begin(), order.end(), [&](RegionRow a, RegionRow b) {
+        const SlodTree::Region& first = tree.regions[a];
+        const SlodTree::Region& second = tree.regions[b];
+        return first.settings.precedence != second.settings.precedence
+                   ? first.settings.precedence > second.settings.precedence
+                   : first.number < second.number;
+    });
+    std::vector<RegionIndex::Entry> entries;
+    for (const RegionRow row : order)
+        entries.push_back({row, RegionTest(tree.regions[row].settings)});
+    tree.index.assign(std::move(entries));
+    for (Subtree& subtree : tree.subtrees) {
+        mark_contested(tree, subtree);
+        end_lives(tree, subtree);
+    }
+    tree.changes.clear();
+}
+
+void free_closed(SlodTree& tree)
+{
+    for (std::size_t row = 1; row < tree.regions.size(); ++row) {
+        Subtree& subtree = tree.subtrees[row];
+        const auto holds_clusters = [](const Pool& pool) { return pool.node.valid() && pool.clusters > 0; };
+        if (!tree.regions[row].open && subtree.pool_count() > 0 &&
+            std::none_of(subtree.pools.begin(), subtree.pools.end(), holds_clusters))
+            subtree = Subtree(subtree.settings, RegionRow(row), subtree.cell_side);
+    }
+}
+
+PoolRef locate(const SlodTree& tree, const Subject& subject)
+{
+    const RegionRow region = tree.region_at(subject);
+    return {region, locate(tree.subtrees[region], subject)};
+}
+
+PoolRef locate_or_grow(SlodTree& tree, const Subject& subject)
+{
+    const RegionRow region = tree.region_at(subject);
+    Subtree& subtree = tree.subtrees[region];
+    const std::size_t cells = subtree.cells.size();
+    const PoolRef pool{region, locate_or_grow(subtree, subject)};
+    if (subtree.cells.size() > cells) {
+        Node& root = subtree.nodes[tree.pool(pool).node.index];
+        root.contested = tree.index.contested(root.box, region);
+    }
+    return pool;
 }
 
 Problems problems(const SlodTree& tree, const ClusterTable& clusters)

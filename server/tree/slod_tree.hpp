@@ -3,38 +3,71 @@
 #include <cstdint>
 #include <vector>
 
+#include "tree/region_index.hpp"
 #include "tree/subtree.hpp"
 
 namespace slod {
 
 /// A pool of any region.
 struct PoolRef {
-    std::uint16_t region = 0;
+    RegionRow region = background_row;
     PoolId pool;
 
     bool valid() const { return pool.valid(); }
     friend constexpr bool operator==(const PoolRef&, const PoolRef&) = default;
 };
 
-/// The master node: one subtree per region of interest, in order of precedence. The last one is the
-/// background, which takes whatever no other region holds (O'Brien et al. 2001, section 4.3).
+/// The master node: a subtree for each region of interest, in rows that are used again, and the order of
+/// precedence among them. Row 0 is the background, which takes whatever no other region holds (O'Brien et
+/// al. 2001, section 4.3).
 struct SlodTree {
-    std::vector<Subtree> subtrees;
+    /// A row's region.
+    struct Region {
+        RegionOfInterest settings;
+        std::uint64_t number = 0; ///< of its opening, never used again: the earlier of equals takes
+        bool open = false;        ///< closed ones give their clusters away and are empty after an update
+    };
+
+    /// With nothing but the background.
+    SlodTree(const RegionSettings& background, double cell_side);
+
+    std::vector<Subtree> subtrees; ///< by row
+    std::vector<Region> regions;   ///< by row
+    RegionIndex index;             ///< of the open ones
+    std::uint64_t openings = 0;    ///< regions opened so far
+    std::vector<Box> changes;      ///< where regions were or came since settle()
 
     Subtree& of(const PoolRef& ref) { return subtrees[ref.region]; }
     const Subtree& of(const PoolRef& ref) const { return subtrees[ref.region]; }
     Pool& pool(const PoolRef& ref) { return of(ref).pools[ref.pool.index]; }
     const Pool& pool(const PoolRef& ref) const { return of(ref).pools[ref.pool.index]; }
 
-    /// The region that takes what is at x.
-    std::uint16_t region_at(const Vector3d& x) const;
+    /// The region that takes the subject.
+    RegionRow region_at(const Subject& subject) const { return index.find(subject); }
 
     std::size_t pool_count() const;
     std::size_t pool_capacity() const; ///< of all regions, without taking memory
 };
 
-PoolRef locate(const SlodTree& tree, const Vector3d& x);   ///< invalid when the cell is not there
-PoolRef locate_or_grow(SlodTree& tree, const Vector3d& x); ///< makes it
+/// Opens a region in a free row. It takes clusters from the next update on; settle() before that.
+RegionRow open_region(SlodTree& tree, const RegionOfInterest& region);
+
+/// Gives an open region, or the background, a new place or new parameters. When its grid's cells change, all
+/// its clusters are put into cells anew.
+void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region, ClusterTable& clusters);
+
+/// Closes an open region; what it holds is for others to take.
+void close_region(SlodTree& tree, RegionRow row);
+
+/// Makes changed regions count: brings the index and the cells' marks up to date, and ends the lives of the
+/// pools where something changed. Clears `changes`.
+void settle(SlodTree& tree);
+
+/// Frees the rows of closed regions that hold nothing any more.
+void free_closed(SlodTree& tree);
+
+PoolRef locate(const SlodTree& tree, const Subject& subject);   ///< invalid when the cell is not there
+PoolRef locate_or_grow(SlodTree& tree, const Subject& subject); ///< makes it
 
 /// What one update did.
 struct UpdateCounts {

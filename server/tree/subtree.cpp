@@ -97,6 +97,30 @@ void merge_leaves(Subtree& tree, ClusterTable& clusters, PoolId kept, PoolId giv
     tree.pools[kept.index].node = parent;
 }
 
+/// Bins grow by a constant ratio from the floor on; products, as the C library's logarithms differ.
+std::int32_t bin_of(const RegionSettings& settings, const Subject& subject)
+{
+    constexpr std::int32_t most_bins = 64;
+    double value = 0;
+    switch (settings.bin_by) {
+    case BinBy::None:
+        return 0;
+    case BinBy::Mass:
+        value = subject.mass;
+        break;
+    case BinBy::Speed:
+        value = subject.speed;
+        break;
+    case BinBy::Acceleration:
+        value = subject.acceleration;
+        break;
+    }
+    std::int32_t bin = 0;
+    for (double edge = settings.bin_floor; value >= edge && bin < most_bins; edge *= settings.bin_ratio)
+        ++bin;
+    return bin;
+}
+
 } // namespace
 
 Subtree::Subtree(const RegionSettings& region_settings, std::uint16_t region_index, double grid_cell_side)
@@ -124,7 +148,14 @@ void reserve(Subtree& tree, std::size_t pools)
     tree.cells.reserve(room);
 }
 
-Cell cell_of(const Subtree& tree, const Vector3d& x)
+Subject subject_of(const ClusterTable& clusters, std::size_t slot)
+{
+    return {clusters.position[slot], clusters.mass(slot) / clusters.count[slot],
+            clusters.velocity[slot].norm(),
+            clusters.columns.acceleration ? clusters.acceleration[slot].norm() : 0.0};
+}
+
+Cell cell_of(const Subtree& tree, const Subject& subject)
 {
     // What is farther out shares the cells at the rim.
     constexpr double rim = 1 << 30;
@@ -137,34 +168,50 @@ Cell cell_of(const Subtree& tree, const Vector3d& x)
             ++cell;
         return std::int32_t(std::clamp(cell, -rim, rim));
     };
-    return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z())};
+    const Vector3d& x = subject.position;
+    return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z()), bin_of(tree.settings, subject)};
 }
 
-PoolId locate(const Subtree& tree, const Vector3d& x)
+PoolId locate(const Subtree& tree, const Subject& subject)
 {
-    const NodeId root = tree.cells.find(cell_of(tree, x));
-    return root.valid() ? descend(tree, root, x) : PoolId{};
+    const NodeId root = tree.cells.find(cell_of(tree, subject));
+    return root.valid() ? descend(tree, root, subject.position) : PoolId{};
 }
 
-PoolId locate_near(const Subtree& tree, PoolId start, const Vector3d& x)
+PoolId locate_near(const Subtree& tree, PoolId start, const Subject& subject, std::uint64_t* visited)
 {
+    const auto visit = [&](NodeId node) -> const Node& {
+        if (visited != nullptr)
+            ++*visited;
+        return tree.nodes[node.index];
+    };
     NodeId node = tree.pools[start.index].node;
-    while (node.valid() && !tree.nodes[node.index].box.contains(x))
+    if (tree.nodes[node.index].bin != bin_of(tree.settings, subject))
+        return locate(tree, subject);
+    while (node.valid() && !visit(node).box.contains(subject.position))
         node = tree.nodes[node.index].parent;
-    return node.valid() ? descend(tree, node, x) : locate(tree, x);
+    return node.valid() ? descend(tree, node, subject.position) : locate(tree, subject);
 }
 
-PoolId locate_or_grow(Subtree& tree, const Vector3d& x)
+PoolId locate_or_grow(Subtree& tree, const Subject& subject)
 {
-    if (const PoolId found = locate(tree, x); found.valid())
+    if (const PoolId found = locate(tree, subject); found.valid())
         return found;
-    const Cell cell = cell_of(tree, x);
+    const Cell cell = cell_of(tree, subject);
     const NodeId root = take_root(tree);
     const Vector3d corner(cell.x, cell.y, cell.z);
-    tree.nodes[root.index] = {};
-    tree.nodes[root.index].box = {tree.cell_side * corner, tree.cell_side * (corner + Vector3d::Ones())};
+    Node& node = tree.nodes[root.index];
+    node = {};
+    node.box = {tree.cell_side * corner, tree.cell_side * (corner + Vector3d::Ones())};
+    node.bin = cell.bin;
     tree.cells.insert(cell, root);
     return take_pool(tree, root);
+}
+
+bool holds(const Subtree& tree, PoolId pool, const Subject& subject)
+{
+    const Node& leaf = tree.nodes[tree.pools[pool.index].node.index];
+    return leaf.box.contains(subject.position) && leaf.bin == bin_of(tree.settings, subject);
 }
 
 bool can_expand(const Subtree& tree, PoolId pool)
@@ -184,6 +231,8 @@ PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, doub
     child.box = parent.box;
     child.parent = leaf;
     child.depth = parent.depth + 1;
+    child.bin = parent.bin;
+    child.contested = parent.contested;
     tree.nodes[pair.index] = tree.nodes[pair.index + 1] = child;
     tree.nodes[pair.index].box.upper[axis] = position;
     tree.nodes[pair.index + 1].box.lower[axis] = position;
@@ -234,7 +283,9 @@ PoolId prune(Subtree& tree, ClusterTable& clusters, PoolId pool, std::uint32_t m
         return pool;
     const NodeId root = tree.pools[pool.index].node;
     const Box& box = tree.nodes[root.index].box;
-    tree.cells.erase(cell_of(tree, 0.5 * (box.lower + box.upper)));
+    Cell cell = cell_of(tree, Vector3d(0.5 * (box.lower + box.upper)));
+    cell.bin = tree.nodes[root.index].bin;
+    tree.cells.erase(cell);
     tree.free_roots.push_back(root);
     tree.nodes[root.index].pool = {};
     free_pool(tree, pool);

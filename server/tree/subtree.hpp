@@ -9,6 +9,7 @@
 #include "core/ids.hpp"
 #include "tree/box.hpp"
 #include "tree/cell_map.hpp"
+#include "tree/region.hpp"
 #include "tree/settings.hpp"
 
 namespace slod {
@@ -22,6 +23,8 @@ struct Node {
     double split = 0;
     int axis = 0;
     int depth = 0;
+    std::int32_t bin = 0;  ///< of the cell
+    bool contested = true; ///< another region may take part of the box
 
     bool leaf() const { return !left.valid(); }
     NodeId right() const { return {left.index + 1}; }
@@ -69,16 +72,24 @@ struct Subtree {
 /// Provides room for `pools` more pools, with their nodes and cells.
 void reserve(Subtree& tree, std::size_t pools);
 
-Cell cell_of(const Subtree& tree, const Vector3d& x);
+/// What regions ask of a cluster. Without the column its acceleration counts as 0.
+Subject subject_of(const ClusterTable& clusters, std::size_t slot);
 
-/// The pool at x; invalid when its cell is not there.
-PoolId locate(const Subtree& tree, const Vector3d& x);
+Cell cell_of(const Subtree& tree, const Subject& subject);
 
-/// The same, searched bottom-up from a pool nearby (section 4.3).
-PoolId locate_near(const Subtree& tree, PoolId start, const Vector3d& x);
+/// The pool of the subject; invalid when its cell is not there.
+PoolId locate(const Subtree& tree, const Subject& subject);
 
-/// The pool at x, whose cell is made when it is not there.
-PoolId locate_or_grow(Subtree& tree, const Vector3d& x);
+/// The same, searched bottom-up from a pool nearby (section 4.3). `visited` (may be null) is raised by the
+/// nodes looked at.
+PoolId locate_near(const Subtree& tree, PoolId start, const Subject& subject,
+                   std::uint64_t* visited = nullptr);
+
+/// The pool of the subject, whose cell is made when it is not there.
+PoolId locate_or_grow(Subtree& tree, const Subject& subject);
+
+/// Whether the pool's leaf is where the subject belongs in this subtree.
+bool holds(const Subtree& tree, PoolId pool, const Subject& subject);
 
 /// Splits a pool's leaf at `position` along `axis`; its clusters go to the side their centre is on. The
 /// pool itself becomes the left one; the right one is returned, with the same turn.

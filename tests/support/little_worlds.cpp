@@ -75,15 +75,13 @@ FlowMap aged_map(const MapRule& rule, std::uint64_t frames, double tide, std::ui
 
 World::World(const MapRule& rule, const Features& features, const RegionSettings& region_settings,
              double cell_side)
-    : store(empty_store(rule, features))
-{
-    tree.subtrees.emplace_back(region_settings, std::uint16_t{0}, cell_side);
-}
+    : store(empty_store(rule, features)), tree(region_settings, cell_side)
+{}
 
 ClusterSlot World::add(const ParticleSet& particles, std::uint64_t frame, std::uint32_t spare)
 {
     const ClusterSlot slot = form(store, particles, frame, spare);
-    const PoolRef pool = locate_or_grow(tree, store.clusters.position[slot.index]);
+    const PoolRef pool = locate_or_grow(tree, subject_of(store.clusters, slot.index));
     link(tree.of(pool), store.clusters, pool.pool, slot);
     return slot;
 }

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <string>
+
+#include "sim/state.hpp"
+
+namespace slod {
+namespace {
+
+std::string quoted(std::string_view name)
+{
+    return '"' + std::string(name) + '"';
+}
+
+} // namespace
+
+std::optional<RegionRow> Simulation::State::find_region(std::string_view name) const
+{
+    const auto found = std::find_if(tree.regions.begin(), tree.regions.end(), [&](const auto& region) {
+        return region.open && region.settings.name == name;
+    });
+    if (found == tree.regions.end())
+        return {};
+    return RegionRow(found - tree.regions.begin());
+}
+
+std::vector<Simulation::Region> Simulation::regions() const
+{
+    const SlodTree& tree = state_->tree;
+    std::vector<Region> all;
+    for (std::size_t row = 0; row < tree.regions.size(); ++row)
+        if (tree.regions[row].open)
+            all.push_back({RegionRow(row), tree.regions[row].settings});
+    const auto order = [&](const Region& a, const Region& b) {
+        const bool a_last = a.row == background_row, b_last = b.row == background_row;
+        if (a_last || b_last)
+            return !a_last && b_last;
+        if (a.settings.precedence != b.settings.precedence)
+            return a.settings.precedence > b.settings.precedence;
+        return tree.regions[a.row].number < tree.regions[b.row].number;
+    };
+    std::sort(all.begin(), all.end(), order);
+    return all;
+}
+
+Problems Simulation::add_region(const RegionOfInterest& region)
+{
+    State& s = *state_;
+    Problems found = slod::problems(region);
+    if (!is_name(region.name))
+        found.push_back("name = " + quoted(region.name) + " is no name; use 1 to 32 of a-z, 0-9, _ and -.");
+    else if (s.find_region(region.name))
+        found.push_back("name = " + quoted(region.name) + " is taken; choose another, or change that region.");
+    if (std::size_t(std::count_if(s.tree.regions.begin(), s.tree.regions.end(),
+                                  [](const auto& each) { return each.open; })) > max_regions)
+        found.push_back("name = " + quoted(region.name) + " would be one region more than " +
+                        std::to_string(max_regions) + "; remove another first.");
+    if (s.plan.unclustered && region.partition.max_cluster_size >= 2)
+        found.push_back("max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
+                        "or start the scene with background.max_cluster_size above 1.");
+    if (!found.empty())
+        return found;
+    open_region(s.tree, region);
+    s.take_up_merging();
+    return {};
+}
+
+Problems Simulation::change_region(const RegionOfInterest& region)
+{
+    State& s = *state_;
+    const auto row = s.find_region(region.name);
+    if (!row)
+        return {"name = " + quoted(region.name) + " is no region; list them to see their names."};
+    Problems found = slod::problems(region);
+    if (*row == background_row && region.shape != Shape::Everywhere)
+        found.push_back("shape cannot change: the background is everywhere; add a region instead.");
+    if (s.plan.unclustered && region.partition.max_cluster_size >= 2)
+        found.push_back("max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
+                        "or start the scene with background.max_cluster_size above 1.");
+    if (!found.empty())
+        return found;
+    slod::change_region(s.tree, *row, region, s.store.clusters);
+    s.take_up_merging();
+    return {};
+}
+
+Problems Simulation::remove_region(std::string_view name)
+{
+    const auto row = state_->find_region(name);
+    if (!row)
+        return {"name = " + quoted(name) + " is no region; list them to see their names."};
+    if (*row == background_row)
+        return {"name = " + quoted(name) + " cannot go: it holds whatever no other region does."};
+    close_region(state_->tree, *row);
+    return {};
+}
+
+Problems Simulation::change_settings(const SimulationSettings& wanted)
+{
+    State& s = *state_;
+    const SimulationSettings& present = s.settings;
+    Problems found = slod::problems(wanted);
+    const auto fixed = [&](std::string_view key, bool same) {
+        if (!same)
+            found.push_back(std::string(key) + " cannot change while the scene runs; start the server with it.");
+    };
+    fixed("seed", wanted.seed == present.seed);
+    fixed("units", wanted.units == present.units);
+    fixed("time", wanted.time == present.time);
+    fixed("kind", wanted.kinds == present.kinds);
+    fixed("motion", wanted.motion == present.motion);
+    fixed("linear_drag", wanted.linear_drag == present.linear_drag);
+    fixed("emitter", wanted.emitters == present.emitters);
+    fixed("background", wanted.background == present.background);
+    fixed("region", wanted.regions == present.regions);
+    fixed("gravity", wanted.gravity.has_value() == present.gravity.has_value());
+    fixed("uniform_gravity", wanted.uniform_gravity.has_value() == present.uniform_gravity.has_value());
+    fixed("uniform_wind", wanted.uniform_wind.has_value() == present.uniform_wind.has_value());
+    if (!found.empty())
+        return found;
+    s.forces_stale = s.forces_stale || wanted.gravity != present.gravity;
+    s.settings = wanted;
+    s.set_fields();
+    return {};
+}
+
+void Simulation::State::set_fields()
+{
+    gravitational_constant =
+        settings.units.gravitational_constant() * (settings.gravity ? settings.gravity->strength : 1.0);
+    fields = UniformFields(settings.uniform_gravity, settings.linear_drag, settings.uniform_wind);
+    propagator = fields.over(settings.time.step);
+    emission.set_fields(fields);
+}
+
+/// Regions come and go: what a fine one left small may be merged again.
+void Simulation::State::take_up_merging()
+{
+    if (!plan.unclustered)
+        regrouping.allow_merging();
+    plan.runs[std::size_t(Phase::Update)] = true;
+}
+
+} // namespace slod
