@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "core/portable_math.hpp"
 
 namespace slod {
@@ -55,8 +57,7 @@ Box frustum_bounds(const RegionOfInterest& region, const Sight& sight)
         for (const double across : {-sight.width, sight.width})
             for (const double above : {-sight.rise, sight.rise}) {
                 const Vector3d corner =
-                    region.centre +
-                    depth * (sight.forward + across * sight.right + above * sight.upward);
+                    region.centre + depth * (sight.forward + across * sight.right + above * sight.upward);
                 bounds.lower = bounds.lower.cwiseMin(corner);
                 bounds.upper = bounds.upper.cwiseMax(corner);
             }
@@ -122,7 +123,9 @@ bool RegionTest::holds(const Vector3d& x) const
 
 bool RegionTest::contains(const Subject& subject) const
 {
-    const auto within = [](double value, double least, double most) { return value >= least && value < most; };
+    const auto within = [](double value, double least, double most) {
+        return value >= least && value < most;
+    };
     return holds(subject.position) &&
            (!selective_ || (within(subject.mass, least_mass_, most_mass_) &&
                             within(subject.speed, least_speed_, most_speed_) &&
@@ -176,7 +179,8 @@ Problems problems(const RegionOfInterest& region)
     Problems found;
     if (region.shape == Shape::Frustum) {
         if (region.direction.isZero(0))
-            found.push_back("direction = [0, 0, 0] is none; give the direction of sight, such as [0, 0, -1].");
+            found.push_back(
+                "direction = [0, 0, 0] is none; give the direction of sight, such as [0, 0, -1].");
         else if (!(region.direction.normalized().cross(region.up.normalized()).norm() > 1e-6))
             found.push_back("up is along the direction of sight, or 0; give one across it.");
         if (region.near_distance >= region.far_distance)
