@@ -74,7 +74,7 @@ protected:
         reforming.found(world.tree, test::ball(11, 0.5, 0, 1, {2, 2, 2}), 0);
         host = world.add(test::ball(host_size, 0.5, 0, 2, {6, 2, 2}), 0, spare);
         world.store.clusters.variance[host.index] = 0.15; // 3/5 of the squared radius
-        const PoolId due = locate(world.region(), {2, 2, 2});
+        const PoolId due = locate(world.region(), Vector3d(2, 2, 2));
         pool = world.store.clusters.pool[host.index];
         const ClusterSlot visitor =
             world.add({{.position = place, .velocity = {0, 0, 0}, .id = 99, .mass = 1}});
@@ -125,7 +125,7 @@ TEST_F(ReformingTest, APoolOfNewbornsLivesShortlyUntilTheirTidesAreKnown)
 {
     world.add(test::ball(5, 0.5, 0, 1, {2, 2, 2}), 7);
     reforming.update(world.tree, 8, counts);
-    const Pool& pool = world.region().pools[locate(world.region(), {2, 2, 2}).index];
+    const Pool& pool = world.region().pools[locate(world.region(), Vector3d(2, 2, 2)).index];
     EXPECT_EQ(pool.turn_frame, 8U);
     EXPECT_LE(pool.life(), 3U); // the shortest is 2, and ends at its multiples
 }

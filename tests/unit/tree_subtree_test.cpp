@@ -23,7 +23,7 @@ test::World world_of(std::size_t count, double radius, double cell_side)
 TEST(CellOf, TakesTheFloorOnBothSidesOfZero)
 {
     const test::World world(rigid, {}, {}, 2.0);
-    const auto x = [&](double value) { return cell_of(world.tree.subtrees.front(), {value, 0, 0}).x; };
+    const auto x = [&](double value) { return cell_of(world.tree.subtrees.front(), Vector3d(value, 0, 0)).x; };
     EXPECT_EQ(x(0.0), 0);
     EXPECT_EQ(x(-0.0), 0);
     EXPECT_EQ(x(1e-300), 0);
@@ -40,7 +40,7 @@ TEST(CellOf, PutsWhatIsBeyondTheGridIntoTheCellsAtItsRim)
     const test::World world(rigid, {}, {}, 1e-3);
     constexpr std::int32_t rim = 1 << 30;
     for (const double far : {2e6, 1e12, 1e300, std::numeric_limits<double>::max()}) {
-        const Cell cell = cell_of(world.tree.subtrees.front(), {far, -far, 0});
+        const Cell cell = cell_of(world.tree.subtrees.front(), Vector3d(far, -far, 0));
         EXPECT_EQ(cell, (Cell{rim, -rim, 0})) << far;
     }
 }
@@ -53,7 +53,7 @@ TEST(CellOf, AgreesWithTheCellsBoxAtEveryFace)
         for (int face = -300; face <= 300; ++face) {
             for (const double x :
                  {face * side, std::nextafter(face * side, -1e300), std::nextafter(face * side, 1e300)}) {
-                const PoolId pool = locate_or_grow(world.region(), {x, 0, 0});
+                const PoolId pool = locate_or_grow(world.region(), Vector3d(x, 0, 0));
                 const Box& box = world.region().nodes[world.region().pools[pool.index].node.index].box;
                 ASSERT_TRUE(box.contains({x, 0, 0})) << "side " << side << " face " << face;
             }
@@ -70,7 +70,7 @@ TEST(Subtree, ACellIsThereOnlyOnceAskedFor)
     const PoolId pool = locate_or_grow(world.region(), x);
     EXPECT_EQ(locate(world.region(), x), pool);
     EXPECT_EQ(locate_or_grow(world.region(), x), pool);
-    EXPECT_FALSE(locate(world.region(), {4.5, -2.5, 0.5}).valid());
+    EXPECT_FALSE(locate(world.region(), Vector3d(4.5, -2.5, 0.5)).valid());
     EXPECT_EQ(world.region().pool_count(), 1U);
 }
 
@@ -78,7 +78,7 @@ TEST(Subtree, ExpandingDividesClustersByTheirCentre)
 {
     test::World world = world_of(100, 1, 4);
     Subtree& tree = world.region();
-    const PoolId left = locate(tree, {0.1, 0.1, 0.1});
+    const PoolId left = locate(tree, Vector3d(0.1, 0.1, 0.1));
     const std::uint32_t before = tree.pools[left.index].clusters;
     const PoolId right = expand(tree, world.store.clusters, left, 0, 0.25);
     for (const auto& [pool, is_right] : {std::pair(left, false), std::pair(right, true)})
@@ -94,7 +94,7 @@ TEST(Subtree, BothHalvesOfAnExpandedPoolKeepItsTurnUntilOneTakesItsOwn)
 {
     test::World world = world_of(100, 1, 4);
     Subtree& tree = world.region();
-    const PoolId left = locate(tree, {0.1, 0.1, 0.1});
+    const PoolId left = locate(tree, Vector3d(0.1, 0.1, 0.1));
     tree.pools[left.index].turn_frame = 7;
     tree.pools[left.index].due_frame = 15;
     const PoolId right = expand(tree, world.store.clusters, left, 1, 1.0);
@@ -109,13 +109,13 @@ TEST(Subtree, PruningUndoesExpanding)
 {
     test::World world = world_of(100, 1, 4);
     Subtree& tree = world.region();
-    const PoolId pool = locate(tree, {0.1, 0.1, 0.1});
+    const PoolId pool = locate(tree, Vector3d(0.1, 0.1, 0.1));
     const std::uint32_t members = tree.pools[pool.index].members;
     const PoolId right = expand(tree, world.store.clusters, pool, 0, 0.3);
     expand(tree, world.store.clusters, right, 1, 0.3);
     expand(tree, world.store.clusters, right, 2, 0.3);
     const PoolId kept = prune(tree, world.store.clusters, right, 1000);
-    EXPECT_EQ(locate(tree, {0.1, 0.1, 0.1}), kept);
+    EXPECT_EQ(locate(tree, Vector3d(0.1, 0.1, 0.1)), kept);
     EXPECT_EQ(tree.pools[kept.index].members, members);
     EXPECT_EQ(tree.pool_count(), tree.cells.size());
     EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
@@ -125,7 +125,7 @@ TEST(Subtree, PruningLeavesPoolsThatTogetherHoldEnough)
 {
     test::World world = world_of(100, 1, 4);
     Subtree& tree = world.region();
-    const PoolId pool = locate(tree, {0.1, 0.1, 0.1});
+    const PoolId pool = locate(tree, Vector3d(0.1, 0.1, 0.1));
     const std::uint32_t members = tree.pools[pool.index].members;
     const std::size_t pools = tree.pool_count();
     expand(tree, world.store.clusters, pool, 0, 0.3);
@@ -140,9 +140,9 @@ TEST(Subtree, AnEmptyCellGoesWhenItIsPruned)
     test::World world(rigid, {}, {}, 1);
     Subtree& tree = world.region();
     for (const double x : {-1e300, -7.3, 0.5, 1e300}) {
-        const PoolId pool = locate_or_grow(tree, {x, 0, 0});
+        const PoolId pool = locate_or_grow(tree, Vector3d(x, 0, 0));
         EXPECT_FALSE(prune(tree, world.store.clusters, pool, 16).valid());
-        EXPECT_FALSE(locate(tree, {x, 0, 0}).valid()) << x;
+        EXPECT_FALSE(locate(tree, Vector3d(x, 0, 0)).valid()) << x;
     }
     EXPECT_EQ(tree.cells.size(), 0U);
     EXPECT_EQ(tree.pool_count(), 0U);
@@ -154,7 +154,7 @@ TEST(Subtree, ALeafCanBeDividedUntilItIsAsThinAsItsCoordinatesResolve)
     for (const double place : {0.0, 1e7, 1e12, 1e300}) {
         test::World world(rigid, {}, {}, 1);
         Subtree& tree = world.region();
-        const PoolId pool = locate_or_grow(tree, {place, place, place});
+        const PoolId pool = locate_or_grow(tree, Vector3d(place, place, place));
         int divisions = 0;
         for (; can_expand(tree, pool); ++divisions) {
             const Box box = tree.nodes[tree.pools[pool.index].node.index].box;
@@ -172,7 +172,7 @@ class SubtreeProblems : public testing::Test {
 protected:
     SubtreeProblems()
     {
-        const PoolId pool = locate(tree(), {0.1, 0.1, 0.1});
+        const PoolId pool = locate(tree(), Vector3d(0.1, 0.1, 0.1));
         right = expand(tree(), world.store.clusters, pool, 0, 0.3);
         slot = tree().pools[right.index].first;
     }
