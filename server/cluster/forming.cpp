@@ -145,6 +145,22 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
         clusters.tide[slot] = {};
 }
 
+/// Bounds the spectral norm from above, and is equal to it for a multiple of the identity.
+double norm_bound(const Matrix3d& matrix)
+{
+    const Matrix3d sizes = matrix.cwiseAbs();
+    return std::sqrt(sizes.rowwise().sum().maxCoeff() * sizes.colwise().sum().maxCoeff());
+}
+
+/// Largest length of `of_offset` o + `of_velocity` w among the members, from the largest at forming.
+double mapped_bound(const ClusterTable& clusters, std::size_t slot, const Matrix3d& of_offset,
+                    const Matrix3d& of_velocity)
+{
+    const MapBlocks::Offset mean = means(clusters, slot);
+    return norm_bound(of_offset) * (double(clusters.offset_max[slot]) + mean.position.norm()) +
+           norm_bound(of_velocity) * (double(clusters.speed_max[slot]) + mean.velocity.norm());
+}
+
 } // namespace
 
 void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> particles,
@@ -271,10 +287,14 @@ double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::s
                        std::uint64_t frame)
 {
     const MapBlocks map = clusters.blocks(slot, rule, frame);
-    const MapBlocks::Offset mean = means(clusters, slot);
-    // The Frobenius norm bounds the spectral norm.
-    return map.a.norm() * (double(clusters.offset_max[slot]) + mean.position.norm()) +
-           map.b.norm() * (double(clusters.speed_max[slot]) + mean.velocity.norm());
+    return mapped_bound(clusters, slot, map.a, map.b);
+}
+
+double velocity_bound(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
+                      std::uint64_t frame)
+{
+    const MapBlocks map = clusters.blocks(slot, rule, frame);
+    return mapped_bound(clusters, slot, map.c, map.d);
 }
 
 } // namespace slod

@@ -50,4 +50,8 @@ std::uint32_t remove_expired(ClusterStore& store, ClusterSlot slot, std::uint64_
 double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
                        std::uint64_t frame);
 
+/// The same for velocities: no member's differs more from the cluster's.
+double velocity_bound(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
+                      std::uint64_t frame);
+
 } // namespace slod

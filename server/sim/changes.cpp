@@ -49,14 +49,16 @@ Problems Simulation::add_region(const RegionOfInterest& region)
     if (!is_name(region.name))
         found.push_back("name = " + quoted(region.name) + " is no name; use 1 to 32 of a-z, 0-9, _ and -.");
     else if (s.find_region(region.name))
-        found.push_back("name = " + quoted(region.name) + " is taken; choose another, or change that region.");
+        found.push_back("name = " + quoted(region.name) +
+                        " is taken; choose another, or change that region.");
     if (std::size_t(std::count_if(s.tree.regions.begin(), s.tree.regions.end(),
                                   [](const auto& each) { return each.open; })) > max_regions)
         found.push_back("name = " + quoted(region.name) + " would be one region more than " +
                         std::to_string(max_regions) + "; remove another first.");
     if (s.plan.unclustered && region.partition.max_cluster_size >= 2)
-        found.push_back("max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
-                        "or start the scene with background.max_cluster_size above 1.");
+        found.push_back(
+            "max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
+            "or start the scene with background.max_cluster_size above 1.");
     if (!found.empty())
         return found;
     open_region(s.tree, region);
@@ -74,8 +76,9 @@ Problems Simulation::change_region(const RegionOfInterest& region)
     if (*row == background_row && region.shape != Shape::Everywhere)
         found.push_back("shape cannot change: the background is everywhere; add a region instead.");
     if (s.plan.unclustered && region.partition.max_cluster_size >= 2)
-        found.push_back("max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
-                        "or start the scene with background.max_cluster_size above 1.");
+        found.push_back(
+            "max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
+            "or start the scene with background.max_cluster_size above 1.");
     if (!found.empty())
         return found;
     slod::change_region(s.tree, *row, region, s.store.clusters);
@@ -101,7 +104,8 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     Problems found = slod::problems(wanted);
     const auto fixed = [&](std::string_view key, bool same) {
         if (!same)
-            found.push_back(std::string(key) + " cannot change while the scene runs; start the server with it.");
+            found.push_back(std::string(key) +
+                            " cannot change while the scene runs; start the server with it.");
     };
     fixed("seed", wanted.seed == present.seed);
     fixed("units", wanted.units == present.units);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "core/portable_math.hpp"
 
 namespace slod {
@@ -39,27 +41,99 @@ Symmetric3 union_moments(const ClusterStore& store, std::size_t a, std::size_t b
     return Symmetric3::of(one.moments + other.moments + reduced * apart * apart.transpose());
 }
 
-bool move_alike(const RegionSettings& region, const Vector3d& va, const Vector3d& vb)
+/// The velocities of a cluster's members: in a ball about the mean.
+struct VelocityBall {
+    Vector3d mean;
+    double speed;  ///< of the mean
+    double radius; ///< no member's velocity is farther from the mean
+};
+
+VelocityBall velocity_ball(const ClusterStore& store, std::size_t slot, std::uint64_t frame,
+                           const Vector3d& reference)
 {
-    const double a = va.norm();
-    const double b = vb.norm();
-    if (std::max(a, b) <= region.speed_floor)
+    const Vector3d mean = store.clusters.velocity[slot] - reference;
+    return {mean, mean.norm(), velocity_bound(store.clusters, store.rule, slot, frame)};
+}
+
+/// A direction in a plane; products of them add angles.
+struct Turn {
+    double cosine, sine;
+
+    Turn operator*(const Turn& other) const
+    {
+        return {cosine * other.cosine - sine * other.sine, sine * other.cosine + cosine * other.sine};
+    }
+};
+
+/// Half the angle under which the ball is seen from zero velocity, which is outside of it.
+Turn half_angle(const VelocityBall& ball)
+{
+    const double sine = ball.radius / ball.speed;
+    return {std::sqrt(1 - sine * sine), sine};
+}
+
+Turn between(const Vector3d& a, const Vector3d& b)
+{
+    const double product = a.norm() * b.norm();
+    return {a.dot(b) / product, a.cross(b).norm() / product};
+}
+
+/// Whether every velocity in one ball is within the limits to every velocity in the other.
+bool move_alike(const RegionSettings& region, const VelocityBall& a, const VelocityBall& b)
+{
+    const double fastest = std::max(a.speed + a.radius, b.speed + b.radius);
+    const double slowest = std::min(a.speed - a.radius, b.speed - b.radius);
+    if (fastest <= region.speed_floor)
         return true;
-    const double cosine = portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine;
-    return std::max(a, b) <= region.speed_ratio * std::min(a, b) && va.dot(vb) >= cosine * a * b;
+    if (slowest <= 0 || fastest > region.speed_ratio * slowest)
+        return false;
+    if (region.angle_deg >= 180)
+        return true;
+    const double limit = portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine;
+    const Turn widest = between(a.mean, b.mean) * half_angle(a) * half_angle(b);
+    return widest.sine >= 0 && widest.cosine >= limit; // below 0: more than half a turn
+}
+
+/// Breadth that a cluster of so many particles may have for now.
+double breadth_goal(const RegionSettings& region, std::uint32_t size)
+{
+    constexpr double nearly_full = 0.9, excess = 1.25;
+    const bool full = size > nearly_full * std::uint32_t(region.max_cluster_size);
+    return full ? excess * region.max_breadth : region.max_breadth;
 }
 
 } // namespace
 
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
-               std::uint64_t frame)
+               std::uint64_t frame, const Vector3d& reference)
 {
     const ClusterTable& clusters = store.clusters;
     const std::uint32_t size = clusters.count[a.index] + clusters.count[b.index];
     return size <= std::uint32_t(region.max_cluster_size) &&
-           move_alike(region, clusters.velocity[a.index], clusters.velocity[b.index]) &&
+           move_alike(region, velocity_ball(store, a.index, frame, reference),
+                      velocity_ball(store, b.index, frame, reference)) &&
            (!std::isfinite(region.max_breadth) ||
-            !wider_than(region.max_breadth, union_moments(store, a.index, b.index, frame), size));
+            !wider_than(breadth_goal(region, size), union_moments(store, a.index, b.index, frame), size));
+}
+
+bool too_wide(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot, std::uint64_t frame)
+{
+    constexpr std::uint64_t excess_frames = 60;
+    const ClusterTable& clusters = store.clusters;
+    const std::uint32_t count = clusters.count[slot.index];
+    const std::uint64_t age = frame - clusters.formed_frame[slot.index];
+    if (count < 2)
+        return false;
+    if (store.rule.kind == MapKind::Identity && std::isfinite(region.drift_limit) &&
+        double(age) * store.rule.step * velocity_bound(clusters, store.rule, slot.index, frame) >
+            region.drift_limit)
+        return true;
+    if (!std::isfinite(region.max_breadth))
+        return false;
+    const Moments& moments = clusters.counting_moments(slot.index);
+    const Symmetric3 extent = map_position_moments(moments, clusters.blocks(slot.index, store.rule, frame));
+    const double limit = age < excess_frames ? breadth_goal(region, count) : region.max_breadth;
+    return wider_than(limit, extent, moments.weight);
 }
 
 bool wider_than(double limit, const Symmetric3& sum, double size)

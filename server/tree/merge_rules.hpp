@@ -8,10 +8,16 @@
 namespace slod {
 
 /// Whether two clusters may become one (O'Brien et al. 2001, section 4.1): together no more than the
-/// maximum size and breadth, and speeds and directions within the region's limits. Below the speed floor
-/// speeds and directions are not compared.
+/// maximum size and breadth, and speeds and directions, relative to the velocity `reference`, within the
+/// region's limits. Those hold for any member of one and any of the other, not only for their means, so
+/// that a chain of merges cannot exceed them. Below the speed floor they are not asked for.
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
-               std::uint64_t frame);
+               std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
+
+/// Whether the cluster is to be split: wider than its region allows or, in rigid motion, drifted too far
+/// apart by its members' own velocities. Size and breadth are goals: a cluster of nearly the maximum size
+/// may be a quarter wider in its first 60 frames.
+bool too_wide(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot, std::uint64_t frame);
 
 /// Whether a cluster of `size` particles and `second_moments` (summed, not averaged) is wider than `limit`.
 bool wider_than(double limit, const Symmetric3& second_moments, double size);

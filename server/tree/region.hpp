@@ -33,11 +33,11 @@ struct RegionOfInterest {
     double radius = 1;             ///< of a sphere; scene length
 
     // A frustum.
-    Vector3d direction{0, 0, -1}; ///< of sight, any length but 0
-    Vector3d up{0, 1, 0};         ///< not along the direction
-    double field_of_view_deg = 60; ///< vertical
-    double aspect = 16.0 / 9;      ///< width by height
-    double near_distance = 0;      ///< scene length
+    Vector3d direction{0, 0, -1};                                  ///< of sight, any length but 0
+    Vector3d up{0, 1, 0};                                          ///< not along the direction
+    double field_of_view_deg = 60;                                 ///< vertical
+    double aspect = 16.0 / 9;                                      ///< width by height
+    double near_distance = 0;                                      ///< scene length
     double far_distance = std::numeric_limits<double>::infinity(); ///< scene length
 
     // What of it: clusters whose particles have such a mean mass, speed and acceleration, [least, most).

@@ -7,8 +7,8 @@
 namespace slod {
 namespace {
 
-constexpr std::size_t few = 8;            ///< regions that are not worth a grid
-constexpr double most_cells = 64;         ///< of the grid that one region or box is looked up in
+constexpr std::size_t few = 8;    ///< regions that are not worth a grid
+constexpr double most_cells = 64; ///< of the grid that one region or box is looked up in
 constexpr std::int32_t cell_limit = 1 << 30;
 constexpr std::uint32_t no_rank = 0xffff'ffff;
 
@@ -79,8 +79,9 @@ bool RegionIndex::fits_grid(const Box& bounds) const
 void RegionIndex::spread(std::uint32_t rank)
 {
     const Box& bounds = entries_[rank].test.bounds();
-    for_each_cell(cell_of(bounds.lower), cell_of(bounds.upper),
-                  [&](const Cell& cell) { reaches_.push_back({cell, rank}); });
+    for_each_cell(cell_of(bounds.lower), cell_of(bounds.upper), [&](const Cell& cell) {
+        reaches_.push_back({cell, rank});
+    });
 }
 
 /// Rounds alike for a region's corners and for the subjects between them, so that none is missed.

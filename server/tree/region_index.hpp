@@ -52,8 +52,8 @@ private:
         friend constexpr auto operator<=>(const Reach&, const Reach&) = default;
     };
 
-    std::vector<Entry> entries_;          ///< by rank
-    std::vector<std::uint32_t> rank_;     ///< by row
+    std::vector<Entry> entries_;      ///< by rank
+    std::vector<std::uint32_t> rank_; ///< by row
     std::vector<std::uint32_t> wide_; ///< ranks of those too large for the grid
     double side_ = 1;                 ///< of the grid's cells
     std::vector<Reach> reaches_;      ///< by cell, then rank

@@ -68,13 +68,8 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot)
     const std::uint32_t count = clusters.count[slot];
     if (count > subtree.max_cluster_size() && (slot + context_.frame) % split_period == 0)
         return Action::Split;
-    if (count > 1 && std::isfinite(subtree.settings.max_breadth)) {
-        const Symmetric3 extent = map_position_moments(
-            clusters.counting_moments(slot), clusters.blocks(slot, context_.store.rule, context_.frame));
-        const double weight = clusters.counting_moments(slot).weight;
-        if (wider_than(subtree.settings.max_breadth, extent, weight))
-            return Action::Split;
-    }
+    if (too_wide(context_.store, subtree.settings, {std::uint32_t(slot)}, context_.frame))
+        return Action::Split;
     return crosses(tree, slot) ? Action::Cross : Action::Stay;
 }
 
@@ -149,8 +144,28 @@ void Regrouping::form_from(SlodTree& tree, std::span<const ClusterSlot> ended)
     }
 }
 
+/// Mean velocity of each region's clusters, or 0 where the paper's own comparison is asked for.
+void Regrouping::measure_surroundings(const SlodTree& tree)
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    surroundings_.assign(tree.subtrees.size(), Vector3d(0, 0, 0));
+    in_region_.assign(tree.subtrees.size(), 0);
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        surroundings_[clusters.region[slot]] += double(clusters.count[slot]) * clusters.velocity[slot];
+        in_region_[clusters.region[slot]] += clusters.count[slot];
+    }
+    for (const Subtree& subtree : tree.subtrees) {
+        Vector3d& mean = surroundings_[subtree.region];
+        if (subtree.settings.velocity_reference == VelocityReference::Rest || in_region_[subtree.region] == 0)
+            mean.setZero();
+        else
+            mean /= double(in_region_[subtree.region]);
+    }
+}
+
 void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
 {
+    measure_surroundings(tree);
     partner_.resize(context_.store.clusters.slot_count());
     merging_pairs_.clear();
     grouping_.clear();
@@ -200,7 +215,7 @@ void Regrouping::pair_clusters(const Subtree& tree, const Pool& pool)
         for (ClusterSlot b = clusters.next[a.index]; b.valid(); b = clusters.next[b.index]) {
             const double squared = (clusters.position[b.index] - clusters.position[a.index]).squaredNorm();
             if (partner_[b.index].valid() || (best.valid() && squared >= best_squared) ||
-                !may_merge(context_.store, tree.settings, a, b, context_.frame))
+                !may_merge(context_.store, tree.settings, a, b, context_.frame, surroundings_[tree.region]))
                 continue;
             best = b;
             best_squared = squared;

@@ -35,6 +35,7 @@ private:
     bool crosses(const SlodTree& tree, std::size_t slot);
     void move_crossing(SlodTree& tree, UpdateCounts& counts);
     void split(SlodTree& tree, UpdateCounts& counts);
+    void measure_surroundings(const SlodTree& tree);
     void merge(SlodTree& tree, UpdateCounts& counts);
     void pair_clusters(const Subtree& tree, const Pool& pool);
     void form_from(SlodTree& tree, std::span<const ClusterSlot> ended);
@@ -49,6 +50,8 @@ private:
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
     std::vector<ClusterSlot> partner_; ///< by slot
     std::vector<ClusterSlot> by_position_;
+    std::vector<Vector3d> surroundings_;   ///< by region: what its velocities are relative to
+    std::vector<std::uint64_t> in_region_; ///< particles, by region
 };
 
 } // namespace slod

@@ -17,14 +17,29 @@ constexpr std::array<std::string_view, 4> names(BinBy)
     return {"none", "mass", "speed", "acceleration"};
 }
 
+/// What velocities are relative to when they are compared before a merge.
+enum class VelocityReference : std::uint8_t {
+    Surroundings, ///< the mean of the region's clusters, so that a boost of the scene changes no merge
+    Rest,         ///< the scene's axes, as in the paper
+};
+
+constexpr std::array<std::string_view, 2> names(VelocityReference)
+{
+    return {"surroundings", "rest"};
+}
+
 /// The partitioning parameters of one region of interest (O'Brien et al. 2001, section 4.1).
 struct RegionSettings {
     double max_cluster_size = 64; ///< particles per cluster; real-valued, floored when used
     double max_breadth = std::numeric_limits<double>::infinity(); ///< diameter of a cluster, scene length
-    double pool_factor = 4;     ///< particles re-formed together, in cluster sizes
-    double speed_ratio = 2;     ///< largest ratio of speeds that may merge (lambda)
-    double angle_deg = 30;      ///< largest angle between velocities that may merge (theta)
-    double speed_floor = 0;     ///< below it speeds and directions are not compared, scene length / time
+    double pool_factor = 4; ///< particles re-formed together, in cluster sizes
+    double speed_ratio = 2; ///< largest ratio of speeds that may merge (lambda)
+    double angle_deg = 30;  ///< largest angle between velocities that may merge (theta)
+    double speed_floor = 0; ///< below it speeds and directions are not compared, scene length / time
+    VelocityReference velocity_reference = VelocityReference::Surroundings;
+    /// How far members of a cluster in rigid motion may have gone their own ways before it is split: the
+    /// largest relative velocity times the age, scene length.
+    double drift_limit = std::numeric_limits<double>::infinity();
     BinBy bin_by = BinBy::None; ///< what a cluster's particles are alike in (section 3.3)
     double bin_floor = 1;       ///< of that quantity: all below it share one bin
     double bin_ratio = 2;       ///< largest to smallest in each of the others
@@ -51,6 +66,12 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
     visit(Field{"speed_floor", "length/time", "Clusters slower than this merge whatever their directions.", 0,
                 no_maximum},
           region.speed_floor);
+    visit(Field{"velocity_reference", "", "What velocities are relative to when they are compared."},
+          region.velocity_reference);
+    visit(Field{"drift_limit", "length",
+                "Members of a cluster in rigid motion may have drifted so far by their own velocities.", 0,
+                no_maximum, true},
+          region.drift_limit);
     visit(Field{"bin_by", "", "A quantity in which the particles of a cluster are alike: it divides first."},
           region.bin_by);
     visit(Field{"bin_floor", "", "All below it, in the unit of the quantity, share one bin.", 1e-30, 1e30},

@@ -18,7 +18,8 @@ const RegionSettings limits{.max_cluster_size = 12,
                             .pool_factor = 4,
                             .speed_ratio = 2,
                             .angle_deg = 40,
-                            .speed_floor = 0.1};
+                            .speed_floor = 0.1,
+                            .velocity_reference = VelocityReference::Rest};
 
 /// Single particles of different mass in rigid motion, which regrouping may merge.
 class Merging {

@@ -23,7 +23,9 @@ test::World world_of(std::size_t count, double radius, double cell_side)
 TEST(CellOf, TakesTheFloorOnBothSidesOfZero)
 {
     const test::World world(rigid, {}, {}, 2.0);
-    const auto x = [&](double value) { return cell_of(world.tree.subtrees.front(), Vector3d(value, 0, 0)).x; };
+    const auto x = [&](double value) {
+        return cell_of(world.tree.subtrees.front(), Vector3d(value, 0, 0)).x;
+    };
     EXPECT_EQ(x(0.0), 0);
     EXPECT_EQ(x(-0.0), 0);
     EXPECT_EQ(x(1e-300), 0);
