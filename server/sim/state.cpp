@@ -125,7 +125,7 @@ void Simulation::State::make_room()
     if (plan.clocked)
         reforming.reserve(tree, moving);
     else
-        regrouping.reserve(moving);
+        regrouping.reserve(tree, moving);
     if (plan.has(Phase::Moments))
         reserve(view, store.clusters.slot_capacity(), tree.pool_capacity());
 }

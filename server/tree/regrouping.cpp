@@ -19,8 +19,10 @@ constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit; apart, as 
 
 } // namespace
 
-void Regrouping::reserve(std::size_t particle_count)
+void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
 {
+    surroundings_.reserve(tree.subtrees.size());
+    in_region_.reserve(tree.subtrees.size());
     const std::size_t clusters = context_.store.clusters.slot_capacity();
     grouping_.reserve(particle_count, clusters, clusters);
     actions_.reserve(clusters);

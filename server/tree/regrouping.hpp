@@ -22,7 +22,7 @@ public:
 
     /// Provides memory for updates that form `particle_count` particles anew, in the clusters there is room
     /// for.
-    void reserve(std::size_t particle_count);
+    void reserve(const SlodTree& tree, std::size_t particle_count);
 
     /// Updates after the clusters have moved to the end of frame `frame`.
     void update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts);
