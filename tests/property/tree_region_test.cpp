@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include "support/random_regions.hpp"
+
+namespace slod {
+namespace {
+
+const test::RegionDraw any{.by_mass = true, .by_motion = true};
+
+Box random_box(Random& random, double extent, double size)
+{
+    const Vector3d lower = test::random_point(random, extent);
+    return {lower, lower + size * Vector3d(random.uniform(), random.uniform(), random.uniform())};
+}
+
+Vector3d point_in(Random& random, const Box& box)
+{
+    const Vector3d share(random.uniform(), random.uniform(), random.uniform());
+    return (box.lower + share.cwiseProduct(box.size())).cwiseMax(box.lower).cwiseMin(box.upper);
+}
+
+Subject random_subject(Random& random, const Vector3d& x)
+{
+    return {x, 2 * random.uniform(), 5 * random.uniform(), 2 * random.uniform()};
+}
+
+std::vector<RegionIndex::Entry> random_entries(Random& random, std::size_t count, const test::RegionDraw& draw)
+{
+    std::vector<RegionIndex::Entry> entries;
+    for (std::size_t i = 0; i < count; ++i)
+        entries.push_back({RegionRow(count - i), RegionTest(test::random_region(random, draw))});
+    return entries;
+}
+
+TEST(RegionTest, MissesAndCoversWhatItContainsNothingOrAllOf)
+{
+    std::size_t missed = 0, covered = 0;
+    for (std::uint64_t i = 0; i < 20'000; ++i) {
+        Random random(1, 0, i);
+        const RegionTest region(test::random_region(random, any));
+        const Box box = random_box(random, 10, i % 2 == 0 ? 0.3 : 6);
+        const bool misses = region.misses(box), covers = region.covers(box);
+        missed += misses;
+        covered += covers;
+        for (int sample = 0; sample < 16; ++sample) {
+            const Subject subject = random_subject(random, point_in(random, box));
+            const bool inside = region.contains(subject);
+            ASSERT_FALSE(misses && inside) << i;
+            ASSERT_FALSE(covers && !inside) << i;
+            ASSERT_FALSE(inside && !(subject.position.array() >= region.bounds().lower.array()).all()) << i;
+            ASSERT_FALSE(inside && !(subject.position.array() <= region.bounds().upper.array()).all()) << i;
+        }
+    }
+    EXPECT_GT(missed, 5000U);
+    EXPECT_GT(covered, 20U);
+}
+
+TEST(RegionIndex, FindsWhatALookAtAllRegionsFinds)
+{
+    for (const std::size_t count : {0U, 1U, 5U, 9U, 60U, 1000U}) {
+        Random random(2, 0, count);
+        RegionIndex index;
+        index.assign(random_entries(random, count, {.size = 1.5, .everywhere = count < 60,
+                                                    .by_mass = true, .by_motion = true}));
+        std::size_t elsewhere = 0;
+        for (int sample = 0; sample < 20'000; ++sample) {
+            const Subject subject = random_subject(random, test::random_point(random, 12));
+            const RegionRow row = index.find(subject);
+            ASSERT_EQ(row, test::region_by_turns(index.entries(), subject)) << count;
+            elsewhere += row != background_row;
+        }
+        if (count >= 60) {
+            EXPECT_GT(elsewhere, 0U);
+        }
+    }
+}
+
+TEST(RegionIndex, AsksNoRegionThatComesAfterTheAnswer)
+{
+    for (const std::size_t count : {6U, 1000U}) {
+        Random random(3, 0, count);
+        RegionIndex index;
+        index.assign(random_entries(random, count, {.size = 1.0, .everywhere = false}));
+        std::uint64_t asked = 0;
+        for (int sample = 0; sample < 10'000; ++sample) {
+            std::uint64_t tests = 0;
+            const RegionRow row = index.find(test::random_point(random, 12), &tests);
+            // Rows count down from the number of regions, so the first in order has rank 0.
+            const std::size_t rank = row == background_row ? count : count - row;
+            ASSERT_LE(tests, rank + 1);
+            if (count == 6) {
+                ASSERT_EQ(tests, std::min<std::uint64_t>(rank + 1, count)); // sequentially, as in the paper
+            }
+            asked += tests;
+        }
+        // A thousand regions of a few per mille of the space each: a point is near some of them.
+        if (count == 1000) {
+            EXPECT_LT(asked, 10'000 * 60U);
+        }
+    }
+}
+
+TEST(RegionIndex, CallsEveryBoxContestedThatHoldsAnythingOfAnother)
+{
+    std::size_t quiet = 0;
+    for (const std::size_t count : {3U, 40U}) {
+        Random random(4, 0, count);
+        RegionIndex index;
+        index.assign(random_entries(random, count, {.size = 2, .everywhere = false, .by_mass = true}));
+        for (int sample = 0; sample < 5000; ++sample) {
+            const Box box = random_box(random, 12, 1);
+            const Subject there = random_subject(random, point_in(random, box));
+            const RegionRow owner = index.find(there);
+            if (index.contested(box, owner))
+                continue;
+            ++quiet;
+            for (int other = 0; other < 16; ++other)
+                ASSERT_EQ(index.find(random_subject(random, point_in(random, box))), owner);
+        }
+    }
+    EXPECT_GT(quiet, 1000U);
+}
+
+} // namespace
+} // namespace slod
