@@ -36,6 +36,7 @@ void for_each_column(ClusterTable& table, const Visitor& visit)
     if (table.columns.acceleration) {
         visit(table.acceleration);
         visit(table.variance);
+        visit(table.pull);
     }
     if (table.columns.tide)
         visit(table.tide);

@@ -51,6 +51,9 @@ struct ClusterTable {
     AlignedVector<std::uint16_t> region;
     AlignedVector<PoolId> pool;                ///< of the region's subtree
     AlignedVector<ClusterSlot> next, previous; ///< in the pool's list
+    /// |a| by gravity at the last evaluation; of clusters formed since, the mean of those their members come
+    /// from. 0: none is known. columns.acceleration
+    AlignedVector<double> pull;
 
     // Derived anew each frame from the state.
     AlignedVector<Vector3d> acceleration; ///< columns.acceleration

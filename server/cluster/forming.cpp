@@ -140,6 +140,7 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
     if (clusters.columns.acceleration) {
         clusters.acceleration[slot].setZero();
         clusters.variance[slot] = 0;
+        clusters.pull[slot] = 0;
     }
     if (clusters.columns.tide)
         clusters.tide[slot] = {};

@@ -84,7 +84,7 @@ void list_columns(Plan& plan, const SimulationSettings& settings)
     cluster(plan.map == MapKind::Full, "flow map and closure", sizeof(FlowMap) + sizeof(double));
     cluster(plan.counting_moments, "moments by number", sizeof(Moments));
     cluster(plan.finite_lives, "next expiry", 4);
-    cluster(settings.gravity.has_value(), "acceleration and variance", sizeof(Vector3d) + sizeof(double));
+    cluster(settings.gravity.has_value(), "acceleration and variance", sizeof(Vector3d) + 2 * sizeof(double));
     cluster(plan.clocked, "tidal tensor", sizeof(Symmetric3));
 }
 

@@ -33,6 +33,18 @@ void take_slots(Grouping& grouping, ClusterStore& store)
     }
 }
 
+/// Of the particles that have one.
+double mean_pull(const Grouping& grouping, std::span<const DivisionKey> keys)
+{
+    double sum = 0, known = 0;
+    for (const DivisionKey& key : keys) {
+        const double pull = double(grouping.pull[key.index]);
+        sum += pull;
+        known += pull > 0 ? 1 : 0;
+    }
+    return known > 0 ? sum / known : 0;
+}
+
 void form_group(Grouping& grouping, const Group& group, const UpdateContext& context)
 {
     if (group.clusters == 0)
@@ -54,6 +66,8 @@ void form_group(Grouping& grouping, const Group& group, const UpdateContext& con
             part + 1 == group.clusters ? group.count : part_begin(group.count, group.clusters, part + 1);
         const ClusterSlot slot = grouping.slots[group.first_slot + part];
         form_cluster(context.store, slot, ordered.subspan(begin, end - begin), context.frame);
+        if (context.store.clusters.columns.acceleration)
+            context.store.clusters.pull[slot.index] = mean_pull(grouping, keys.subspan(begin, end - begin));
     }
 }
 
@@ -63,6 +77,7 @@ void Grouping::clear()
 {
     particles.clear();
     place.clear();
+    pull.clear();
     order.clear();
     groups.clear();
 }
@@ -71,6 +86,7 @@ void Grouping::resize(std::size_t count)
 {
     particles.resize(count);
     place.resize(count);
+    pull.resize(count);
     order.resize(count);
 }
 
@@ -78,6 +94,7 @@ void Grouping::reserve(std::size_t particle_count, std::size_t group_count, std:
 {
     make_room(particles, particle_count);
     make_room(place, particle_count);
+    make_room(pull, particle_count);
     make_room(order, particle_count);
     make_room(keys, particle_count);
     make_room(ordered, particle_count);
@@ -98,10 +115,15 @@ void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> s
         total += clusters.count[slots[i].index];
     }
     grouping.particles.resize(total);
+    grouping.pull.resize(total);
     for_each_block(slots.size(), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t slot = slots[i].index, count = clusters.count[slot];
             map_out(context.store, slots[i], context.frame,
-                    std::span(grouping.particles).subspan(first[i], clusters.count[slots[i].index]));
+                    std::span(grouping.particles).subspan(first[i], count));
+            if (clusters.columns.acceleration)
+                std::fill_n(grouping.pull.begin() + first[i], count, float(clusters.pull[slot]));
+        }
     });
     for (const ClusterSlot slot : slots) {
         unlink(tree.subtrees[clusters.region[slot.index]], clusters, slot);

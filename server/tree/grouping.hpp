@@ -26,6 +26,7 @@ struct Grouping {
 
     std::vector<Particle> particles;
     std::vector<Vector3d> place;      ///< by particle: where it counts as being when grouped
+    std::vector<float> pull;          ///< by particle: |a| of the cluster it comes from; 0: none is known
     std::vector<std::uint32_t> order; ///< particle indices, group by group
     std::vector<Group> groups;
 
@@ -36,19 +37,21 @@ struct Grouping {
 
     void clear();
 
-    /// Room for `count` particles; the arrays per particle have exactly this length then.
+    /// Room for `count` particles; the arrays per particle have exactly this length then. What was not there
+    /// before has no pull.
     void resize(std::size_t count);
 
     /// Provides memory for so many particles, groups and clusters to be.
     void reserve(std::size_t particle_count, std::size_t group_count, std::size_t cluster_count);
 };
 
-/// Members that clusters in `slots` hold, mapped out to the front of `grouping`, in order; the clusters end:
-/// taken off their pools, their slots freed and slabs retired.
+/// Members that clusters in `slots` hold, mapped out to the front of `grouping`, in order, with their pulls;
+/// the clusters end: taken off their pools, their slots freed and slabs retired.
 void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
               const UpdateContext& context);
 
-/// Divides each group into its number of clusters (0: none) and forms them.
+/// Divides each group into its number of clusters (0: none) and forms them; they inherit their members' mean
+/// pull.
 void form_groups(Grouping& grouping, const UpdateContext& context);
 
 /// Adds the clusters just formed to their groups' pools.
