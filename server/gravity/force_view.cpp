@@ -1,16 +1,17 @@
 #include "gravity/force_view.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "core/parallel.hpp"
+#include "gravity/node_sums.hpp"
 
 namespace slod {
 namespace {
 
 constexpr std::size_t block = 512;
-constexpr std::size_t deepest_path = 128; ///< nodes from the root: octants of cells, and k-d nodes in a cell
+constexpr std::size_t deepest_path = 160; ///< nodes from the root: octants of cells, k-d nodes, halved leaves
+constexpr std::size_t leaf_bodies = 8;    ///< a leaf with more is halved
 
 /// Spreads the low 21 bits of `value` to every third bit.
 std::uint64_t spread_bits(std::uint64_t value)
@@ -96,17 +97,57 @@ private:
 
     void add_tree(NodeId id)
     {
-        const std::size_t opened = open();
         const Node& node = tree_.nodes[id.index];
         if (node.leaf()) {
-            const Pool& pool = tree_.pools[node.pool.index];
-            for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters_.next[slot.index])
-                view_.slot.push_back(slot);
-        } else {
-            add_tree(node.left);
-            add_tree(node.right());
+            add_leaf(tree_.pools[node.pool.index]);
+            return;
         }
+        const std::size_t opened = open();
+        add_tree(node.left);
+        add_tree(node.right());
         close(opened);
+    }
+
+    void add_leaf(const Pool& pool)
+    {
+        const std::size_t first = view_.slot.size();
+        for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters_.next[slot.index])
+            view_.slot.push_back(slot);
+        if (view_.slot.size() > first)
+            add_halves(first, view_.slot.size());
+    }
+
+    /// Adds bodies [first, last), which are in the run already. Pools of small clusters hold hundreds of
+    /// them, and those of coincident particles, which no plane divides, any number.
+    void add_halves(std::size_t first, std::size_t last)
+    {
+        const std::size_t node = view_.nodes.size();
+        view_.nodes.push_back({.first = std::uint32_t(first), .count = std::uint32_t(last - first)});
+        if (last - first > leaf_bodies) {
+            halve(first, last);
+            const std::size_t middle = first + (last - first) / 2;
+            add_halves(first, middle);
+            add_halves(middle, last);
+        }
+        view_.nodes[node].next = std::uint32_t(view_.nodes.size());
+    }
+
+    /// Sorts bodies about the median of their longest side; coincident ones by their slots.
+    void halve(std::size_t first, std::size_t last)
+    {
+        Vector3d lower = clusters_.position[view_.slot[first].index], upper = lower;
+        for (std::size_t body = first; body < last; ++body) {
+            lower = lower.cwiseMin(clusters_.position[view_.slot[body].index]);
+            upper = upper.cwiseMax(clusters_.position[view_.slot[body].index]);
+        }
+        int axis = 0;
+        (upper - lower).maxCoeff(&axis);
+        const auto place = [&](ClusterSlot slot) { return clusters_.position[slot.index][axis]; };
+        const auto run = view_.slot.begin();
+        std::nth_element(run + std::ptrdiff_t(first), run + std::ptrdiff_t(first + (last - first) / 2),
+                         run + std::ptrdiff_t(last), [&](ClusterSlot a, ClusterSlot b) {
+                             return place(a) != place(b) ? place(a) < place(b) : a < b;
+                         });
     }
 
     ForceView& view_;
@@ -132,92 +173,18 @@ void fill_bodies(ForceView& view, const ClusterTable& clusters, const GravitySet
     });
 }
 
-/// Sums of a node's parts, about a point nearby.
-struct NodeSums {
-    Vector3d origin;
-    double mass = 0;
-    Vector3d by_mass{0, 0, 0}, by_number{0, 0, 0};
-    double number = 0;
-
-    void add(double part_mass, double part_number, const Vector3d& position)
-    {
-        mass += part_mass;
-        number += part_number;
-        by_mass += part_mass * (position - origin);
-        by_number += part_number * (position - origin);
-    }
-    void finish(ForceView::Node& node) const
-    {
-        node.mass = mass;
-        node.centre = origin + (mass > 0 ? Vector3d(by_mass / mass) : Vector3d(by_number / number));
-    }
-};
-
-void sum_up_leaf(const ForceView& view, ForceView::Node& node)
-{
-    NodeSums sums{.origin = view.position(node.first)};
-    for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
-        sums.add(view.mass[body], 1, view.position(body));
-    sums.finish(node);
-    double squared = 0;
-    for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
-        squared = std::max(squared, (view.position(body) - node.centre).squaredNorm());
-    node.radius = std::sqrt(squared);
-}
-
-/// From the children, which come later in the array and are summed up already.
-void sum_up_inner(ForceView& view, std::size_t index)
-{
-    ForceView::Node& node = view.nodes[index];
-    NodeSums sums{.origin = view.nodes[index + 1].centre};
-    for (std::size_t child = index + 1; child < node.next; child = view.nodes[child].next)
-        sums.add(view.nodes[child].mass, view.nodes[child].count, view.nodes[child].centre);
-    sums.finish(node);
-    for (std::size_t child = index + 1; child < node.next; child = view.nodes[child].next)
-        node.radius =
-            std::max(node.radius, view.nodes[child].radius + (view.nodes[child].centre - node.centre).norm());
-}
-
 } // namespace
 
-void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double gravitational_constant,
-                    std::uint64_t frame)
-{
-    ClusterTable& clusters = store.clusters;
-    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
-        for (std::size_t slot = first; slot < last; ++slot) {
-            if (clusters.count[slot] < 2) {
-                clusters.variance[slot] = 0;
-                if (clusters.columns.map)
-                    clusters.closure[slot] = 0;
-                continue;
-            }
-            const double mass = clusters.mass(slot);
-            const Moments& moments = mass > 0 ? clusters.moments[slot] : clusters.counting_moments(slot);
-            const Symmetric3 extent = map_position_moments(moments, clusters.blocks(slot, store.rule, frame));
-            const double variance = std::max(extent.trace() / moments.weight, 0.0);
-            clusters.variance[slot] = variance;
-            if (!clusters.columns.map || !gravity.closure)
-                continue;
-            // A homogeneous ball with this variance; n / (n - 1) as the sample's variance is biased.
-            const double n = clusters.count[slot];
-            const double radius_squared =
-                5.0 / 3.0 * variance * n / (n - 1) + double(clusters.softening_squared[slot]);
-            clusters.closure[slot] = radius_squared > 0 ? gravitational_constant * mass /
-                                                              (radius_squared * std::sqrt(radius_squared))
-                                                        : 0;
-        }
-    });
-}
-
-void reserve(ForceView& view, std::size_t bodies, std::size_t pools)
+void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t regions)
 {
     for (auto* column : {&view.x, &view.y, &view.z, &view.mass, &view.q})
         column->reserve(bodies);
     view.slot.reserve(bodies);
     view.cells.reserve(pools);
-    // An inner node has two children at least; while one is being built, its path may hold some with one.
-    view.nodes.reserve(2 * pools + deepest_path);
+    view.regions.reserve(regions);
+    // An inner node has two children at least; while one is being built, its path may hold some with one. A
+    // halved leaf's parts hold half of leaf_bodies at least.
+    view.nodes.reserve(2 * (pools + 2 * bodies / leaf_bodies) + deepest_path);
 }
 
 void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
@@ -225,20 +192,18 @@ void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
 {
     view.nodes.clear();
     view.slot.clear();
+    view.regions.clear();
     for (const Subtree& subtree : tree.subtrees) {
+        ForceView::Region region{.first_body = std::uint32_t(view.slot.size()),
+                                 .first_node = std::uint32_t(view.nodes.size())};
         sort_cells(view.cells, subtree);
         Builder(view, subtree, clusters).add_cells(0, view.cells.size(), 21);
+        region.last_body = std::uint32_t(view.slot.size());
+        region.last_node = std::uint32_t(view.nodes.size());
+        view.regions.push_back(region);
     }
     fill_bodies(view, clusters, gravity);
-    const auto leaf = [&](std::size_t node) { return view.nodes[node].next == node + 1; };
-    for_each_block(view.nodes.size(), 64, [&](std::size_t first, std::size_t last) {
-        for (std::size_t node = first; node < last; ++node)
-            if (leaf(node))
-                sum_up_leaf(view, view.nodes[node]);
-    });
-    for (std::size_t node = view.nodes.size(); node-- > 0;)
-        if (!leaf(node))
-            sum_up_inner(view, node);
+    sum_up_nodes(view);
 }
 
 } // namespace slod

@@ -20,7 +20,9 @@ struct FrameCounts : UpdateCounts {
     std::uint64_t pools = 0;
     std::uint64_t born = 0;
     std::uint64_t died = 0;
-    std::uint64_t interactions = 0; ///< pairs summed by gravity
+    std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
+    std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
+    std::uint64_t nodes_tested = 0; ///< in those walks, whether they may act as one body
 };
 
 /// A count of events in a frame, by name.
@@ -31,7 +33,7 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 10> event_counts{{
+inline constexpr std::array<EventCount, 12> event_counts{{
     {"born", &FrameCounts::born},
     {"died", &FrameCounts::died},
     {"due_pools", &FrameCounts::due_pools},
@@ -42,6 +44,8 @@ inline constexpr std::array<EventCount, 10> event_counts{{
     {"splits", &FrameCounts::splits},
     {"merges", &FrameCounts::merges},
     {"interactions", &FrameCounts::interactions},
+    {"walks", &FrameCounts::walks},
+    {"nodes_tested", &FrameCounts::nodes_tested},
 }};
 
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is

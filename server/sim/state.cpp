@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/assert.hpp"
-#include "gravity/direct_sum.hpp"
 #include "sim/integrator.hpp"
 
 namespace slod {
@@ -126,8 +125,10 @@ void Simulation::State::make_room()
         reforming.reserve(tree, moving);
     else
         regrouping.reserve(tree, moving);
-    if (plan.has(Phase::Moments))
-        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity());
+    if (plan.has(Phase::Moments)) {
+        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size());
+        reserve(force_lists, store.clusters.slot_capacity(), tree.subtrees.size());
+    }
 }
 
 void Simulation::State::kick()
@@ -176,9 +177,11 @@ void Simulation::State::measure_moments()
 
 void Simulation::State::evaluate_forces()
 {
-    sum_directly(view, *kernels, settings.gravity->precision, gravitational_constant, store.clusters);
-    const std::uint64_t bodies = view.body_count();
-    snapshot.counts.interactions = bodies * (bodies - (bodies > 0 ? 1 : 0));
+    const ForceCounts counts = evaluate_gravity(view, *kernels, *settings.gravity, gravitational_constant,
+                                                force_lists, store.clusters);
+    snapshot.counts.interactions = counts.interactions;
+    snapshot.counts.walks = counts.groups;
+    snapshot.counts.nodes_tested = counts.nodes_tested;
 }
 
 Problems Simulation::State::problems() const

@@ -6,6 +6,7 @@
 #include "cluster/forming.hpp"
 #include "effects/emission.hpp"
 #include "gravity/force_view.hpp"
+#include "gravity/forces.hpp"
 #include "sim/simulation.hpp"
 #include "simd/kernels.hpp"
 #include "tree/expire.hpp"
@@ -66,6 +67,7 @@ struct Simulation::State {
     Expiry expiry;
     Emission emission;
     ForceView view;
+    ForceLists force_lists;
 
     bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
     std::uint64_t frame = 0;   ///< frames completed, or being completed within a step

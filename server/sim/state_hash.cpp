@@ -65,6 +65,8 @@ void add_cluster(Hasher& hasher, const ClusterStore& store, std::size_t slot)
         hasher.add(clusters.counting[slot]);
     if (clusters.columns.expiry)
         hasher.add(clusters.next_expiry[slot]);
+    if (clusters.columns.acceleration)
+        hasher.add(clusters.pull[slot]);
 
     const Slab& slab = clusters.slab[slot];
     const std::uint32_t rows = clusters.stored[slot];

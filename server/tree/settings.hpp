@@ -28,6 +28,18 @@ constexpr std::array<std::string_view, 2> names(VelocityReference)
     return {"surroundings", "rest"};
 }
 
+/// Whom a region's bodies attract by gravity: light regions can be left out as sources.
+enum class Attracts : std::uint8_t {
+    Everything,
+    OwnRegion, ///< the bodies of the region itself alone
+    Nothing,
+};
+
+constexpr std::array<std::string_view, 3> names(Attracts)
+{
+    return {"everything", "own_region", "nothing"};
+}
+
 /// The partitioning parameters of one region of interest (O'Brien et al. 2001, section 4.1).
 struct RegionSettings {
     double max_cluster_size = 64; ///< particles per cluster; real-valued, floored when used
@@ -40,6 +52,7 @@ struct RegionSettings {
     /// How far members of a cluster in rigid motion may have gone their own ways before it is split: the
     /// largest relative velocity times the age, scene length.
     double drift_limit = std::numeric_limits<double>::infinity();
+    Attracts attracts = Attracts::Everything; ///< by gravity
     BinBy bin_by = BinBy::None; ///< what a cluster's particles are alike in (section 3.3)
     double bin_floor = 1;       ///< of that quantity: all below it share one bin
     double bin_ratio = 2;       ///< largest to smallest in each of the others
@@ -72,6 +85,7 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
                 "Members of a cluster in rigid motion may have drifted so far by their own velocities.", 0,
                 no_maximum, true},
           region.drift_limit);
+    visit(Field{"attracts", "", "Whom the region's particles attract by gravity."}, region.attracts);
     visit(Field{"bin_by", "", "A quantity in which the particles of a cluster are alike: it divides first."},
           region.bin_by);
     visit(Field{"bin_floor", "", "All below it, in the unit of the quantity, share one bin.", 1e-30, 1e30},

@@ -125,6 +125,8 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(clouds("rigid", Motion::Rigid, 16, 2000));
     scenes.back().settings.background.max_breadth = 1;
     scenes.push_back(clouds("unclustered", Motion::Flow, 1, 500));
+    scenes.push_back(clouds("walk", Motion::Flow, 8, 2000));
+    scenes.back().settings.gravity->direct_below = 0;
     scenes.push_back(fountain("fountain", Motion::Flow));
     scenes.push_back(fountain("rigid_fountain", Motion::Rigid));
     scenes.push_back(mixture());

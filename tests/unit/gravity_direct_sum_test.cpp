@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.hpp"
-#include "gravity/direct_sum.hpp"
+#include "gravity/forces.hpp"
+#include "gravity/potential.hpp"
 #include "support/clouds.hpp"
 #include "support/direct_sum_oracle.hpp"
 #include "support/little_worlds.hpp"
@@ -39,7 +40,8 @@ public:
 
     void sum(Precision precision, const simd::KernelTable& kernels = simd::kernels())
     {
-        sum_directly(view, kernels, precision, G, clusters());
+        settings.precision = precision;
+        evaluate_gravity(view, kernels, settings, G, lists, clusters());
     }
 
     Vector3d exact(std::size_t body) const
@@ -64,9 +66,10 @@ public:
         return sum;
     }
 
-    GravitySettings settings;
+    GravitySettings settings{.direct_below = 1'000'000};
     test::World world;
     ForceView view;
+    ForceLists lists;
     std::vector<test::PointMass> bodies;
 };
 

@@ -1,0 +1,159 @@
+#include "gravity/block_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/assert.hpp"
+
+namespace slod {
+namespace {
+
+double power_of_two_above(double value)
+{
+    return value > 0 && std::isfinite(value) ? std::ldexp(1.0, std::ilogb(value) + 1) : 1.0;
+}
+
+} // namespace
+
+ScaledUnits units_of(const ForceView& view)
+{
+    double extent = 0;
+    for (const AlignedVector<double>* column : {&view.x, &view.y, &view.z}) {
+        const auto [lowest, highest] = std::minmax_element(column->begin(), column->end());
+        extent = std::max(extent, *highest - *lowest);
+    }
+    const double coarsest = std::max(extent, std::sqrt(*std::max_element(view.q.begin(), view.q.end())));
+    double least_q = std::numeric_limits<double>::infinity();
+    for (const double q : view.q)
+        least_q = q > 0 ? std::min(least_q, q) : least_q;
+    // In between, so that neither 1 / r^3 of the nearest nor r^2 of the farthest overflows a float.
+    const double finest = std::clamp(std::sqrt(least_q), 1e-24 * coarsest, coarsest);
+    return {power_of_two_above(std::sqrt(coarsest * finest)),
+            power_of_two_above(std::accumulate(view.mass.begin(), view.mass.end(), 0.0))};
+}
+
+Vector3d middle_of_block(const ForceView& view, std::size_t first, std::size_t last)
+{
+    const auto median = [&](const AlignedVector<double>& column) {
+        std::array<double, BlockSum<double>::most_targets> values;
+        const auto end = std::copy(column.begin() + std::ptrdiff_t(first),
+                                   column.begin() + std::ptrdiff_t(last), values.begin());
+        const auto middle = values.begin() + (last - first) / 2;
+        std::nth_element(values.begin(), middle, end);
+        return *middle;
+    };
+    return {median(view.x), median(view.y), median(view.z)};
+}
+
+template <class Real>
+BlockSum<Real>::BlockSum(const ForceView& view, const simd::GravityKernels<Real>& kernels,
+                         const ScaledUnits& units, std::size_t first, std::size_t last, bool tide)
+    : view_(view), kernels_(kernels), units_(units), first_(first), last_(last),
+      padded_count_((last - first + simd::tile_width - 1) / simd::tile_width * simd::tile_width), tide_(tide),
+      origin_(middle_of_block(view, first, last))
+{
+    static_assert(most_targets % simd::tile_width == 0);
+    SLOD_ASSERT(first < last && last - first <= most_targets);
+    targets_.load(0, view, first, last, origin_, units);
+    targets_.pad(last - first);
+    for (std::size_t sum = 0; sum < used_sums(); ++sum)
+        std::fill_n(total_[sum].begin(), padded_count_, 0.0);
+}
+
+template <class Real>
+void BlockSum<Real>::add_point(const Vector3d& position, double mass, double q)
+{
+    if (source_count_ == most_sources)
+        flush();
+    sources_.put(source_count_++, position - origin_, mass, q, units_);
+}
+
+template <class Real>
+void BlockSum<Real>::add_bodies(std::size_t first, std::size_t last)
+{
+    const bool own = first <= first_ && last_ <= last;
+    while (first < last) {
+        if (source_count_ == most_sources)
+            flush();
+        // Where the first target is, or would be in another chunk; it names no source that is no target, as
+        // the targets are one run in the sources.
+        if (own && first < last_)
+            self_ = std::ptrdiff_t(source_count_ + first_) - std::ptrdiff_t(first);
+        const std::size_t end = std::min(last, first + most_sources - source_count_);
+        sources_.load(source_count_, view_, first, end, origin_, units_);
+        source_count_ += end - first;
+        first = end;
+    }
+    if (own)
+        interactions_ -= last_ - first_;
+}
+
+template <class Real>
+void BlockSum<Real>::flush()
+{
+    if (source_count_ == 0)
+        return;
+    for (std::size_t sum = 0; sum < used_sums(); ++sum)
+        std::fill_n(partial_[sum].begin(), padded_count_, Real(0));
+    const auto unless_absent = [this](auto& column) { return tide_ ? column.data() : nullptr; };
+    const simd::GravityTargets<Real> targets{
+        padded_count_,
+        targets_.x.data(),
+        targets_.y.data(),
+        targets_.z.data(),
+        targets_.q.data(),
+        partial_[0].data(),
+        partial_[1].data(),
+        partial_[2].data(),
+        unless_absent(partial_[3]),
+        unless_absent(partial_[4]),
+        unless_absent(partial_[5]),
+        unless_absent(partial_[6]),
+        unless_absent(partial_[7]),
+        unless_absent(partial_[8])};
+    const auto kernel = tide_ ? kernels_.add_acceleration_and_tide : kernels_.add_acceleration;
+    kernel(targets,
+           {source_count_, sources_.x.data(), sources_.y.data(), sources_.z.data(), sources_.mass.data(),
+            sources_.q.data()},
+           self_);
+    for (std::size_t sum = 0; sum < used_sums(); ++sum)
+        for (std::size_t target = 0; target < padded_count_; ++target)
+            total_[sum][target] += double(partial_[sum][target]);
+    interactions_ += std::uint64_t(source_count_) * (last_ - first_);
+    source_count_ = 0;
+    self_ = simd::no_self;
+}
+
+template <class Real>
+Vector3d BlockSum<Real>::force()
+{
+    flush();
+    Vector3d sum_of_all{0, 0, 0};
+    for (std::size_t body = first_; body < last_; ++body)
+        sum_of_all += view_.mass[body] * sum(body - first_);
+    return units_.mass / (units_.length * units_.length) * sum_of_all;
+}
+
+template <class Real>
+void BlockSum<Real>::store(double gravitational_constant, ClusterTable& clusters)
+{
+    flush();
+    const double strength = gravitational_constant * units_.mass / (units_.length * units_.length);
+    const double gradient = strength / units_.length;
+    for (std::size_t body = first_; body < last_; ++body) {
+        const std::size_t slot = view_.slot[body].index;
+        const std::size_t i = body - first_;
+        clusters.acceleration[slot] = strength * sum(i);
+        clusters.pull[slot] = clusters.acceleration[slot].norm();
+        if (tide_)
+            clusters.tide[slot] = {gradient * total_[3][i], gradient * total_[4][i], gradient * total_[5][i],
+                                   gradient * total_[6][i], gradient * total_[7][i], gradient * total_[8][i]};
+    }
+}
+
+template class BlockSum<float>;
+template class BlockSum<double>;
+
+} // namespace slod
