@@ -38,6 +38,8 @@ void for_each_column(ClusterTable& table, const Visitor& visit)
         visit(table.variance);
         visit(table.pull);
     }
+    if (table.columns.withheld)
+        visit(table.withheld);
     if (table.columns.tide)
         visit(table.tide);
 }

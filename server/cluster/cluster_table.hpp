@@ -26,6 +26,7 @@ struct ClusterTable {
         bool acceleration = false;
         bool counting_moments = false; ///< when masses differ or are all 0, so that breadth counts particles
         bool expiry = false;
+        bool withheld = false; ///< where clusters may move by their first particle's velocity
     };
 
     explicit ClusterTable(const Columns& asked) : columns(asked) {}
@@ -35,6 +36,7 @@ struct ClusterTable {
     // State, carried from frame to frame.
     AlignedVector<Vector3d> position; ///< centre of mass
     AlignedVector<Vector3d> velocity;
+    AlignedVector<Vector3d> withheld;       ///< the members' mean velocity less `velocity`; columns.withheld
     AlignedVector<FlowMap> map;             ///< columns.map
     AlignedVector<Moments> moments;         ///< weighted by mass
     AlignedVector<Moments> counting;        ///< weighted by number; columns.counting_moments
@@ -65,6 +67,10 @@ struct ClusterTable {
     std::size_t slot_capacity() const { return position.capacity(); } ///< rows without taking memory
     std::size_t alive_count() const { return slot_count() - free_slots.size(); }
     bool alive(std::size_t slot) const { return count[slot] > 0; }
+    Vector3d mean_velocity(std::size_t slot) const ///< of the members
+    {
+        return columns.withheld ? Vector3d(velocity[slot] + withheld[slot]) : velocity[slot];
+    }
     double mass(std::size_t slot) const { return moments[slot].weight; }
     ClusterId id(std::size_t slot) const { return {{std::uint32_t(slot)}, generation[slot]}; }
 

@@ -24,7 +24,7 @@ ConservedQuantities conserved_quantities(const ClusterStore& store, std::size_t 
     const MappedMoments inner = map_moments(clusters.moments[slot], clusters.blocks(slot, store.rule, frame));
     const double mass = clusters.mass(slot);
     const Vector3d& x = clusters.position[slot];
-    const Vector3d& v = clusters.velocity[slot];
+    const Vector3d v = clusters.mean_velocity(slot);
     // sum of m dx x dv from the off-diagonal differences of sum of m dx dv^T
     const Vector3d spin{inner.cross(1, 2) - inner.cross(2, 1), inner.cross(2, 0) - inner.cross(0, 2),
                         inner.cross(0, 1) - inner.cross(1, 0)};

@@ -127,6 +127,8 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
     ClusterTable& clusters = store.clusters;
     clusters.position[slot] = centre.position;
     clusters.velocity[slot] = centre.velocity;
+    if (clusters.columns.withheld)
+        clusters.withheld[slot].setZero();
     clusters.moments[slot] = {};
     clusters.offset_max[slot] = 0;
     clusters.speed_max[slot] = 0;
@@ -210,7 +212,7 @@ void map_out(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame
             continue;
         const MapBlocks::Offset now = map.forward(relative_to(offsets[row], mean));
         particle->position = clusters.position[slot] + now.position;
-        particle->velocity = clusters.velocity[slot] + now.velocity;
+        particle->velocity = clusters.mean_velocity(slot) + now.velocity;
         particle->id = ids[row];
         particle->mass = masses != nullptr ? masses[row] : store.uniform_mass;
         particle->kind = kinds != nullptr ? kinds[row] : std::uint8_t(0);
@@ -236,7 +238,7 @@ void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& par
     const MapBlocks map = clusters.blocks(slot, store.rule, frame);
     const MapBlocks::Offset mean = means(clusters, slot);
     const Vector3d away = particle.position - clusters.position[slot];
-    const Vector3d rush = particle.velocity - clusters.velocity[slot];
+    const Vector3d rush = particle.velocity - clusters.mean_velocity(slot);
     const MapBlocks::Offset formed = map.inverse({away, rush});
     const FormedOffset offset{(formed.position + mean.position).cast<float>(),
                               (formed.velocity + mean.velocity).cast<float>()};
@@ -282,6 +284,18 @@ std::uint32_t remove_expired(ClusterStore& store, ClusterSlot cluster, std::uint
         follow_mean(clusters, slot, clusters.blocks(slot, store.rule, frame), mean);
     }
     return died;
+}
+
+void hold_velocity(ClusterTable& clusters, std::size_t slot, const Vector3d& velocity)
+{
+    clusters.withheld[slot] += clusters.velocity[slot] - velocity;
+    clusters.velocity[slot] = velocity;
+}
+
+void release_velocity(ClusterTable& clusters, std::size_t slot)
+{
+    clusters.velocity[slot] += clusters.withheld[slot];
+    clusters.withheld[slot].setZero();
 }
 
 double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,

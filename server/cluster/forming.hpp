@@ -46,6 +46,12 @@ void insert_member(ClusterStore& store, ClusterSlot slot, const Particle& partic
 /// may be left with count 0, for the caller to free.
 std::uint32_t remove_expired(ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
 
+/// Lets the cluster move at `velocity` instead of its members' mean, which is kept in mind.
+void hold_velocity(ClusterTable& clusters, std::size_t slot, const Vector3d& velocity);
+
+/// Gives the cluster its members' mean velocity back.
+void release_velocity(ClusterTable& clusters, std::size_t slot);
+
 /// Radius about the centre that no member is beyond: |A| (o_max + |o_c|) + |B| (w_max + |w_c|).
 double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
                        std::uint64_t frame);

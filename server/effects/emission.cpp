@@ -18,6 +18,19 @@ double mean_age(std::span<const DivisionKey> keys, std::span<const Newborn> newb
     return sum / double(keys.size());
 }
 
+/// The earliest of them.
+const Newborn& first_of(std::span<const DivisionKey> keys, std::span<const Newborn> newborns)
+{
+    const auto earlier = [](const DivisionKey& a, const DivisionKey& b) { return a.index < b.index; };
+    return newborns[std::min_element(keys.begin(), keys.end(), earlier)->index];
+}
+
+bool by_first_particle(const SlodTree& tree, const ClusterTable& clusters, std::size_t slot)
+{
+    return clusters.columns.withheld &&
+           tree.subtrees[clusters.region[slot]].settings.cluster_velocity == ClusterVelocity::First;
+}
+
 } // namespace
 
 Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life)
@@ -52,6 +65,7 @@ std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const Update
     const std::uint32_t most = std::min(tree.of(pool).max_cluster_size(), clusters.slab[slot].capacity);
     const std::size_t room = most - std::min(most, clusters.stored[slot]);
     const std::size_t joining = std::min(newborns_.size(), room);
+    const Vector3d first_velocity = clusters.velocity[slot];
     for (std::size_t i = 0; i < joining; ++i) {
         Newborn& born = newborns_[i];
         // The closing kick will act for half a step; the newborn was there for its age.
@@ -59,6 +73,8 @@ std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const Update
             born.particle.velocity += (born.age - 0.5 * context.step) * clusters.acceleration[slot];
         insert_member(context.store, cohort.slot, born.particle, context.frame);
     }
+    if (by_first_particle(tree, clusters, slot))
+        hold_velocity(clusters, slot, first_velocity);
     tree.pool(pool).members += std::uint32_t(joining);
     return joining;
 }
@@ -94,8 +110,10 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
         link(tree.of(pool), clusters, pool.pool, slot);
         const std::uint32_t begin = part_begin(count, parts, part);
         const std::span<const Newborn> founders = std::span(newborns_).subspan(first);
-        new_clusters_.push_back(
-            {clusters.id(slot.index), mean_age(keys.subspan(begin, clusters.count[slot.index]), founders)});
+        const std::span<const DivisionKey> of_part = keys.subspan(begin, clusters.count[slot.index]);
+        if (by_first_particle(tree, clusters, slot.index))
+            hold_velocity(clusters, slot.index, first_of(of_part, founders).particle.velocity);
+        new_clusters_.push_back({clusters.id(slot.index), mean_age(of_part, founders)});
     }
     cohorts_[emitter] = open ? clusters.id(grouping_.slots.front().index) : ClusterId{};
 }

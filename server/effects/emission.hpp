@@ -11,7 +11,8 @@ namespace slod {
 
 /// Brings newborn particles into clusters of their own: an emitter's particles fill one open cluster, its
 /// cohort, through the inverse flow map until that is full; many at once are divided by where they will be
-/// in the middle of their lives.
+/// in the middle of their lives. In regions whose rule it is, a cluster moves at its first particle's
+/// velocity (O'Brien et al. 2001, section 5.1).
 class Emission {
 public:
     /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped.

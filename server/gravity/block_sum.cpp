@@ -98,21 +98,20 @@ void BlockSum<Real>::flush()
     for (std::size_t sum = 0; sum < used_sums(); ++sum)
         std::fill_n(partial_[sum].begin(), padded_count_, Real(0));
     const auto unless_absent = [this](auto& column) { return tide_ ? column.data() : nullptr; };
-    const simd::GravityTargets<Real> targets{
-        padded_count_,
-        targets_.x.data(),
-        targets_.y.data(),
-        targets_.z.data(),
-        targets_.q.data(),
-        partial_[0].data(),
-        partial_[1].data(),
-        partial_[2].data(),
-        unless_absent(partial_[3]),
-        unless_absent(partial_[4]),
-        unless_absent(partial_[5]),
-        unless_absent(partial_[6]),
-        unless_absent(partial_[7]),
-        unless_absent(partial_[8])};
+    const simd::GravityTargets<Real> targets{padded_count_,
+                                             targets_.x.data(),
+                                             targets_.y.data(),
+                                             targets_.z.data(),
+                                             targets_.q.data(),
+                                             partial_[0].data(),
+                                             partial_[1].data(),
+                                             partial_[2].data(),
+                                             unless_absent(partial_[3]),
+                                             unless_absent(partial_[4]),
+                                             unless_absent(partial_[5]),
+                                             unless_absent(partial_[6]),
+                                             unless_absent(partial_[7]),
+                                             unless_absent(partial_[8])};
     const auto kernel = tide_ ? kernels_.add_acceleration_and_tide : kernels_.add_acceleration;
     kernel(targets,
            {source_count_, sources_.x.data(), sources_.y.data(), sources_.z.data(), sources_.mass.data(),

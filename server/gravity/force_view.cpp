@@ -195,7 +195,8 @@ void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
     view.regions.clear();
     for (const Subtree& subtree : tree.subtrees) {
         ForceView::Region region{.first_body = std::uint32_t(view.slot.size()),
-                                 .first_node = std::uint32_t(view.nodes.size())};
+                                 .first_node = std::uint32_t(view.nodes.size()),
+                                 .attracts = subtree.settings.attracts};
         sort_cells(view.cells, subtree);
         Builder(view, subtree, clusters).add_cells(0, view.cells.size(), 21);
         region.last_body = std::uint32_t(view.slot.size());

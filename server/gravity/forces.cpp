@@ -43,8 +43,8 @@ void find_runs(const ForceView& view, std::uint64_t direct_below, std::vector<Ta
     }
 }
 
-/// A hundredth of the mean pull in a region: what errors are compared to at least, so that a body at a centre of
-/// symmetry does not open everything. The mean is that of square roots, squared: one close pair must not
+/// A hundredth of the mean pull in a region: what errors are compared to at least, so that a body at a centre
+/// of symmetry does not open everything. The mean is that of square roots, squared: one close pair must not
 /// loosen the bound for all.
 double least_pull(const ForceView& view, const ForceView::Region& region, const ClusterTable& clusters,
                   std::vector<double>& sums)

@@ -36,12 +36,8 @@ Part body_part(const ForceView& view, std::uint32_t body)
 Part child_part(const ForceView::Node& child)
 {
     const double blur_squared = double(child.blur) * double(child.blur);
-    return {child.mass,
-            double(child.count),
-            child.centre,
-            child.q,
-            double(child.radius),
-            blur_squared * blur_squared / blur_weight};
+    return {child.mass, double(child.count),  child.centre,
+            child.q,    double(child.radius), blur_squared * blur_squared / blur_weight};
 }
 
 /// Sums up a node's parts; for_each_part(visit) calls visit(part) for each, twice in the same order.

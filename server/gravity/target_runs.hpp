@@ -20,8 +20,8 @@ struct TargetRun {
 /// Appends the bodies of a region cut into blocks of `most`.
 void append_blocks(const ForceView& view, std::size_t region, std::size_t most, std::vector<TargetRun>& runs);
 
-/// Appends the bodies of a region as groups: the largest nodes of at most `most` bodies, which is no less than a
-/// leaf of the view holds.
+/// Appends the bodies of a region as groups: the largest nodes of at most `most` bodies, which is no less
+/// than a leaf of the view holds.
 void append_groups(const ForceView& view, std::size_t region, std::size_t most, std::vector<TargetRun>& runs);
 
 } // namespace slod

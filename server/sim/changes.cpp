@@ -11,6 +11,18 @@ std::string quoted(std::string_view name)
     return '"' + std::string(name) + '"';
 }
 
+/// What the plan has no columns for, as the scene did not call for it at the start.
+void check_plan(const Plan& plan, const RegionSettings& partition, Problems& found)
+{
+    if (plan.unclustered && partition.max_cluster_size >= 2)
+        found.push_back("max_cluster_size is above 1 in a scene that was planned without clusters; set it to "
+                        "1, or start the scene with background.max_cluster_size above 1.");
+    if (!plan.withholding && partition.cluster_velocity == ClusterVelocity::First)
+        found.push_back(
+            "cluster_velocity = \"first\" needs a scene that has a region with it from the start; "
+            "add one to the scene file.");
+}
+
 } // namespace
 
 std::optional<RegionRow> Simulation::State::find_region(std::string_view name) const
@@ -55,10 +67,7 @@ Problems Simulation::add_region(const RegionOfInterest& region)
                                   [](const auto& each) { return each.open; })) > max_regions)
         found.push_back("name = " + quoted(region.name) + " would be one region more than " +
                         std::to_string(max_regions) + "; remove another first.");
-    if (s.plan.unclustered && region.partition.max_cluster_size >= 2)
-        found.push_back(
-            "max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
-            "or start the scene with background.max_cluster_size above 1.");
+    check_plan(s.plan, region.partition, found);
     if (!found.empty())
         return found;
     open_region(s.tree, region);
@@ -75,10 +84,7 @@ Problems Simulation::change_region(const RegionOfInterest& region)
     Problems found = slod::problems(region);
     if (*row == background_row && region.shape != Shape::Everywhere)
         found.push_back("shape cannot change: the background is everywhere; add a region instead.");
-    if (s.plan.unclustered && region.partition.max_cluster_size >= 2)
-        found.push_back(
-            "max_cluster_size is above 1 in a scene that was planned without clusters; set it to 1, "
-            "or start the scene with background.max_cluster_size above 1.");
+    check_plan(s.plan, region.partition, found);
     if (!found.empty())
         return found;
     slod::change_region(s.tree, *row, region, s.store.clusters);

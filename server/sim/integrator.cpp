@@ -37,6 +37,8 @@ void propagate_clusters(ClusterTable& clusters, const Propagator& step)
             if (!clusters.alive(slot))
                 continue;
             step.apply(clusters.position[slot], clusters.velocity[slot]);
+            if (clusters.columns.withheld)
+                clusters.withheld[slot] += step.decay_minus_1 * clusters.withheld[slot];
             if (clusters.columns.map)
                 propagate(clusters.map[slot], step);
         }

@@ -42,6 +42,13 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
         plan.map = MapKind::Scalar;
     plan.map_is_exact = plan.unclustered || (plan.map == MapKind::Scalar && !position_dependent);
     plan.clocked = !plan.map_is_exact && plan.map != MapKind::Identity;
+    const auto by_first = [](const RegionSettings& partition) {
+        return partition.cluster_velocity == ClusterVelocity::First;
+    };
+    plan.withholding =
+        by_first(settings.background) ||
+        std::any_of(settings.regions.begin(), settings.regions.end(),
+                    [&](const RegionOfInterest& region) { return by_first(region.partition); });
     plan.merging = !plan.unclustered && (motion == Motion::Rigid || !settings.regions.empty());
 }
 
@@ -84,6 +91,7 @@ void list_columns(Plan& plan, const SimulationSettings& settings)
     cluster(plan.map == MapKind::Full, "flow map and closure", sizeof(FlowMap) + sizeof(double));
     cluster(plan.counting_moments, "moments by number", sizeof(Moments));
     cluster(plan.finite_lives, "next expiry", 4);
+    cluster(plan.withholding, "velocity withheld", sizeof(Vector3d));
     cluster(settings.gravity.has_value(), "acceleration and variance", sizeof(Vector3d) + 2 * sizeof(double));
     cluster(plan.clocked, "tidal tensor", sizeof(Symmetric3));
 }

@@ -36,6 +36,7 @@ struct Plan {
     bool finite_lives = false; ///< particles expire
     bool several_kinds = false;
     bool several_masses = false;
+    bool withholding = false;      ///< clusters may move by their first particle's velocity
     bool counting_moments = false; ///< masses differ or are all 0: clusters are also weighed by number
     float uniform_mass = 0;        ///< of every particle, unless several_masses
     std::array<bool, phase_count> runs{};

@@ -22,7 +22,8 @@ ClusterTable::Columns cluster_columns(const Plan& plan, const SimulationSettings
             .tide = plan.clocked,
             .acceleration = settings.gravity.has_value(),
             .counting_moments = plan.counting_moments,
-            .expiry = plan.finite_lives};
+            .expiry = plan.finite_lives,
+            .withheld = plan.withholding};
 }
 
 MapRule map_rule(const Plan& plan, const UniformFields& fields, double step)
@@ -167,6 +168,8 @@ void Simulation::State::update()
         reforming.update(tree, frame, snapshot.counts);
     else
         regrouping.update(tree, frame, snapshot.counts);
+    if (plan.withholding)
+        release_velocities(tree, store.clusters);
 }
 
 void Simulation::State::measure_moments()

@@ -59,6 +59,8 @@ void add_cluster(Hasher& hasher, const ClusterStore& store, std::size_t slot)
     hasher.add(clusters.pool[slot]);
     hasher.add(clusters.next[slot]);
     hasher.add(clusters.previous[slot]);
+    if (clusters.columns.withheld)
+        hasher.add(clusters.withheld[slot]);
     if (clusters.columns.map)
         hasher.add(clusters.map[slot]);
     if (clusters.columns.counting_moments)

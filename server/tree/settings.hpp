@@ -28,6 +28,17 @@ constexpr std::array<std::string_view, 2> names(VelocityReference)
     return {"surroundings", "rest"};
 }
 
+/// The velocity of a cluster that newborns join in an emitter's region (section 5.1).
+enum class ClusterVelocity : std::uint8_t {
+    Mean,  ///< of its particles, by mass
+    First, ///< of its first particle: means of many would leave a stream too narrow
+};
+
+constexpr std::array<std::string_view, 2> names(ClusterVelocity)
+{
+    return {"mean", "first"};
+}
+
 /// Whom a region's bodies attract by gravity: light regions can be left out as sources.
 enum class Attracts : std::uint8_t {
     Everything,
@@ -53,6 +64,7 @@ struct RegionSettings {
     /// largest relative velocity times the age, scene length.
     double drift_limit = std::numeric_limits<double>::infinity();
     Attracts attracts = Attracts::Everything; ///< by gravity
+    ClusterVelocity cluster_velocity = ClusterVelocity::Mean;
     BinBy bin_by = BinBy::None; ///< what a cluster's particles are alike in (section 3.3)
     double bin_floor = 1;       ///< of that quantity: all below it share one bin
     double bin_ratio = 2;       ///< largest to smallest in each of the others
@@ -85,6 +97,8 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
                 "Members of a cluster in rigid motion may have drifted so far by their own velocities.", 0,
                 no_maximum, true},
           region.drift_limit);
+    visit(Field{"cluster_velocity", "", "Of clusters that newborns join; those that leave take the mean."},
+          region.cluster_velocity);
     visit(Field{"attracts", "", "Whom the region's particles attract by gravity."}, region.attracts);
     visit(Field{"bin_by", "", "A quantity in which the particles of a cluster are alike: it divides first."},
           region.bin_by);

@@ -183,6 +183,16 @@ void free_closed(SlodTree& tree)
     }
 }
 
+void release_velocities(const SlodTree& tree, ClusterTable& clusters)
+{
+    for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t slot = first; slot < last; ++slot)
+            if (clusters.alive(slot) &&
+                tree.subtrees[clusters.region[slot]].settings.cluster_velocity == ClusterVelocity::Mean)
+                release_velocity(clusters, slot);
+    });
+}
+
 PoolRef locate(const SlodTree& tree, const Subject& subject)
 {
     const RegionRow region = tree.region_at(subject);

@@ -69,6 +69,10 @@ void free_closed(SlodTree& tree);
 PoolRef locate(const SlodTree& tree, const Subject& subject);   ///< invalid when the cell is not there
 PoolRef locate_or_grow(SlodTree& tree, const Subject& subject); ///< makes it
 
+/// Gives the clusters that have left the regions where they move by their first particle's velocity their
+/// members' mean velocity, and so the exact momentum.
+void release_velocities(const SlodTree& tree, ClusterTable& clusters);
+
 /// What one update did.
 struct UpdateCounts {
     std::uint64_t due_pools = 0;        ///< pools whose clusters were re-formed

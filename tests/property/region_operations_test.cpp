@@ -115,10 +115,12 @@ private:
             const double mass = clusters.mass[i] / clusters.count[i];
             const Subject subject(clusters.position[i], mass, clusters.velocity[i].norm());
             // Pools that live by a clock hold their clusters to the end of their lives.
-            const RegionRow due = simulation_.plan().clocked ? clusters.region[i]
-                                                             : test::region_by_turns(in_order, subject);
+            const RegionRow due =
+                simulation_.plan().clocked ? clusters.region[i] : test::region_by_turns(in_order, subject);
             ASSERT_EQ(clusters.region[i], due) << clusters.position[i].transpose();
-            const auto open = [&](const RegionIndex::Entry& entry) { return entry.row == clusters.region[i]; };
+            const auto open = [&](const RegionIndex::Entry& entry) {
+                return entry.row == clusters.region[i];
+            };
             ASSERT_TRUE(clusters.region[i] == background_row ||
                         std::any_of(in_order.begin(), in_order.end(), open));
         }

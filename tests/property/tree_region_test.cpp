@@ -24,7 +24,8 @@ Subject random_subject(Random& random, const Vector3d& x)
     return {x, 2 * random.uniform(), 5 * random.uniform(), 2 * random.uniform()};
 }
 
-std::vector<RegionIndex::Entry> random_entries(Random& random, std::size_t count, const test::RegionDraw& draw)
+std::vector<RegionIndex::Entry> random_entries(Random& random, std::size_t count,
+                                               const test::RegionDraw& draw)
 {
     std::vector<RegionIndex::Entry> entries;
     for (std::size_t i = 0; i < count; ++i)
@@ -60,8 +61,8 @@ TEST(RegionIndex, FindsWhatALookAtAllRegionsFinds)
     for (const std::size_t count : {0U, 1U, 5U, 9U, 60U, 1000U}) {
         Random random(2, 0, count);
         RegionIndex index;
-        index.assign(random_entries(random, count, {.size = 1.5, .everywhere = count < 60,
-                                                    .by_mass = true, .by_motion = true}));
+        index.assign(random_entries(
+            random, count, {.size = 1.5, .everywhere = count < 60, .by_mass = true, .by_motion = true}));
         std::size_t elsewhere = 0;
         for (int sample = 0; sample < 20'000; ++sample) {
             const Subject subject = random_subject(random, test::random_point(random, 12));

@@ -13,8 +13,7 @@ double spanning_cell_side(const std::vector<ParticleSet>& regions)
     double extent = 0;
     for (const ParticleSet& particles : regions)
         for (const Particle& particle : particles)
-            extent = std::max(extent,
-                              (particle.position - particles.front().position).cwiseAbs().maxCoeff());
+            extent = std::max(extent, (particle.position - particles.front().position).cwiseAbs().maxCoeff());
     return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) + 1) : 1.0;
 }
 

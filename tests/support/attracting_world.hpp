@@ -9,8 +9,8 @@
 
 namespace slod::test {
 
-/// Single particles in one region or several, as the force view shows them, and their accelerations with G = 1
-/// by the code under test and by the oracle.
+/// Single particles in one region or several, as the force view shows them, and their accelerations with G =
+/// 1 by the code under test and by the oracle.
 class AttractingWorld {
 public:
     /// All in one region, whose cells span the particles and are divided as the simulation divides them.
@@ -34,7 +34,10 @@ public:
     {
         return world_.store.clusters.acceleration[view.slot[body].index];
     }
-    Matrix3d tide(std::size_t body) const { return world_.store.clusters.tide[view.slot[body].index].matrix(); }
+    Matrix3d tide(std::size_t body) const
+    {
+        return world_.store.clusters.tide[view.slot[body].index].matrix();
+    }
     Vector3d exact(std::size_t body) const; ///< by the oracle, of all regions' pulls
 
     /// Accelerations by id of the particle, from 1 on.

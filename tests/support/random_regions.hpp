@@ -10,11 +10,11 @@ namespace slod::test {
 
 /// What random_region() may draw from.
 struct RegionDraw {
-    double extent = 10;      ///< centres lie within so far of the origin along each axis
-    double size = 3;         ///< largest half extent, radius and depth
-    bool everywhere = true;  ///< some regions are everywhere
-    bool by_mass = false;    ///< some ask for a range of masses
-    bool by_motion = false;  ///< some ask for ranges of speed or acceleration
+    double extent = 10;     ///< centres lie within so far of the origin along each axis
+    double size = 3;        ///< largest half extent, radius and depth
+    bool everywhere = true; ///< some regions are everywhere
+    bool by_mass = false;   ///< some ask for a range of masses
+    bool by_motion = false; ///< some ask for ranges of speed or acceleration
 };
 
 /// A sound region of any shape, also of no size, with precedence -2 to 2.
