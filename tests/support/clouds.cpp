@@ -36,6 +36,20 @@ ParticleSet ball(std::size_t count, double radius, double speed, std::uint64_t s
     return particles;
 }
 
+ParticleSet cube(std::size_t count, double half_side, std::uint64_t seed, const Vector3d& centre)
+{
+    ParticleSet particles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Random random(seed, 4, i);
+        for (int axis = 0; axis < 3; ++axis)
+            particles[i].position[axis] = centre[axis] + half_side * (2 * random.uniform() - 1);
+        particles[i].velocity.setZero();
+        particles[i].id = i + 1;
+        particles[i].mass = 1;
+    }
+    return particles;
+}
+
 ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed)
 {
     ParticleSet particles(count);

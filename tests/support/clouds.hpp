@@ -16,6 +16,11 @@ Vector3d point_in_ball(Random& random, double radius);
 ParticleSet ball(std::size_t count, double radius, double speed, std::uint64_t seed,
                  const Vector3d& centre = Vector3d::Zero());
 
+/// `count` particles at rest, uniform in the cube of side 2 `half_side` about `centre`. Ids from 1 on,
+/// masses 1.
+ParticleSet cube(std::size_t count, double half_side, std::uint64_t seed,
+                 const Vector3d& centre = Vector3d::Zero());
+
 /// `count` particles of a Plummer sphere with scale length 1 and mass 1 in all, cut at radius 10, with
 /// isotropic velocities of the local dispersion (for G = 1). Ids from 1 on.
 ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed);
