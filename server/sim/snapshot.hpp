@@ -33,7 +33,7 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 12> event_counts{{
+inline constexpr std::array<EventCount, 14> event_counts{{
     {"born", &FrameCounts::born},
     {"died", &FrameCounts::died},
     {"due_pools", &FrameCounts::due_pools},
@@ -43,6 +43,8 @@ inline constexpr std::array<EventCount, 12> event_counts{{
     {"crossings", &FrameCounts::crossings},
     {"splits", &FrameCounts::splits},
     {"merges", &FrameCounts::merges},
+    {"nodes_searched", &FrameCounts::nodes_searched},
+    {"boundary_tests", &FrameCounts::boundary_tests},
     {"interactions", &FrameCounts::interactions},
     {"walks", &FrameCounts::walks},
     {"nodes_tested", &FrameCounts::nodes_tested},

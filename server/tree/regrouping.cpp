@@ -27,6 +27,7 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
     grouping_.reserve(particle_count, clusters, clusters);
     actions_.reserve(clusters);
     targets_.reserve(clusters);
+    searches_.reserve(clusters / block + 1);
     for (auto* list : {&crossing_, &splitting_, &merging_pairs_, &partner_, &by_position_})
         list->reserve(clusters);
 }
@@ -34,7 +35,7 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
 void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)
 {
     context_.frame = frame;
-    plan(tree);
+    plan(tree, counts);
     move_crossing(tree, counts);
     split(tree, counts);
     if (merging_)
@@ -44,15 +45,21 @@ void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& count
         revise(tree);
 }
 
-void Regrouping::plan(const SlodTree& tree)
+void Regrouping::plan(const SlodTree& tree, UpdateCounts& counts)
 {
     const ClusterTable& clusters = context_.store.clusters;
     actions_.resize(clusters.slot_count());
     targets_.resize(clusters.slot_count());
+    searches_.assign((clusters.slot_count() + block - 1) / block, {});
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         for (std::size_t slot = first; slot < last; ++slot)
-            actions_[slot] = clusters.alive(slot) ? action(tree, slot) : Action::Stay;
+            actions_[slot] =
+                clusters.alive(slot) ? action(tree, slot, searches_[first / block]) : Action::Stay;
     });
+    for (const Search& search : searches_) {
+        counts.nodes_searched += search.nodes;
+        counts.boundary_tests += search.tests;
+    }
     crossing_.clear();
     splitting_.clear();
     for (std::uint32_t slot = 0; slot < actions_.size(); ++slot) {
@@ -63,7 +70,7 @@ void Regrouping::plan(const SlodTree& tree)
     }
 }
 
-Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot)
+Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot, Search& search)
 {
     const ClusterTable& clusters = context_.store.clusters;
     const Subtree& subtree = tree.subtrees[clusters.region[slot]];
@@ -72,12 +79,12 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot)
         return Action::Split;
     if (too_wide(context_.store, subtree.settings, {std::uint32_t(slot)}, context_.frame))
         return Action::Split;
-    return crosses(tree, slot) ? Action::Cross : Action::Stay;
+    return crosses(tree, slot, search) ? Action::Cross : Action::Stay;
 }
 
 /// Whether the cluster has left its leaf or belongs to another region; where it goes is in `targets_`. Other
 /// regions are asked only where the leaf's mark says that there are any; else the search is bottom-up.
-bool Regrouping::crosses(const SlodTree& tree, std::size_t slot)
+bool Regrouping::crosses(const SlodTree& tree, std::size_t slot, Search& search)
 {
     const ClusterTable& clusters = context_.store.clusters;
     const Subtree& subtree = tree.subtrees[clusters.region[slot]];
@@ -87,11 +94,12 @@ bool Regrouping::crosses(const SlodTree& tree, std::size_t slot)
     const bool contested = subtree.nodes[subtree.pools[pool.index].node.index].contested;
     if (stays && !contested)
         return false;
-    const RegionRow region = tree.region_at(subject);
+    const RegionRow region = tree.index.find(subject, &search.tests);
     if (stays && region == subtree.region)
         return false;
-    targets_[slot] = region == subtree.region ? PoolRef{region, locate_near(subtree, pool, subject)}
-                                              : locate(tree, subject);
+    targets_[slot] = {region, region == subtree.region
+                                  ? locate_near(subtree, pool, subject, &search.nodes)
+                                  : locate(tree.subtrees[region], subject, &search.nodes)};
     return true;
 }
 

@@ -30,9 +30,14 @@ public:
 private:
     enum class Action : std::uint8_t { Stay, Cross, Split };
 
-    void plan(const SlodTree& tree);
-    Action action(const SlodTree& tree, std::size_t slot);
-    bool crosses(const SlodTree& tree, std::size_t slot);
+    /// What it took to find where clusters belong.
+    struct Search {
+        std::uint64_t nodes = 0, tests = 0;
+    };
+
+    void plan(const SlodTree& tree, UpdateCounts& counts);
+    Action action(const SlodTree& tree, std::size_t slot, Search& search);
+    bool crosses(const SlodTree& tree, std::size_t slot, Search& search);
     void move_crossing(SlodTree& tree, UpdateCounts& counts);
     void split(SlodTree& tree, UpdateCounts& counts);
     void measure_surroundings(const SlodTree& tree);
@@ -47,6 +52,7 @@ private:
     Grouping grouping_;
     std::vector<Action> actions_;  ///< by slot
     std::vector<PoolRef> targets_; ///< by slot, of those that cross
+    std::vector<Search> searches_; ///< by block of slots
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
     std::vector<ClusterSlot> partner_; ///< by slot
     std::vector<ClusterSlot> by_position_;

@@ -82,6 +82,8 @@ struct UpdateCounts {
     std::uint64_t crossings = 0;        ///< clusters that moved to another pool
     std::uint64_t splits = 0;           ///< clusters split for size or breadth
     std::uint64_t merges = 0;
+    std::uint64_t nodes_searched = 0; ///< k-d nodes looked at for clusters that left their leaf or region
+    std::uint64_t boundary_tests = 0; ///< regions asked whether they hold a cluster
 };
 
 /// What an update works on besides the tree.

@@ -60,11 +60,19 @@ void free_pool(Subtree& tree, PoolId pool)
     tree.free_pools.push_back(pool);
 }
 
-PoolId descend(const Subtree& tree, NodeId node, const Vector3d& x)
+void count(std::uint64_t* visited)
+{
+    if (visited != nullptr)
+        ++*visited;
+}
+
+/// The leaf below `node`, which itself has been counted already.
+PoolId descend(const Subtree& tree, NodeId node, const Vector3d& x, std::uint64_t* visited)
 {
     while (!tree.nodes[node.index].leaf()) {
         const Node& inner = tree.nodes[node.index];
         node = x[inner.axis] < inner.split ? inner.left : inner.right();
+        count(visited);
     }
     return tree.nodes[node.index].pool;
 }
@@ -172,25 +180,27 @@ Cell cell_of(const Subtree& tree, const Subject& subject)
     return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z()), bin_of(tree.settings, subject)};
 }
 
-PoolId locate(const Subtree& tree, const Subject& subject)
+PoolId locate(const Subtree& tree, const Subject& subject, std::uint64_t* visited)
 {
     const NodeId root = tree.cells.find(cell_of(tree, subject));
-    return root.valid() ? descend(tree, root, subject.position) : PoolId{};
+    if (!root.valid())
+        return {};
+    count(visited);
+    return descend(tree, root, subject.position, visited);
 }
 
 PoolId locate_near(const Subtree& tree, PoolId start, const Subject& subject, std::uint64_t* visited)
 {
-    const auto visit = [&](NodeId node) -> const Node& {
-        if (visited != nullptr)
-            ++*visited;
-        return tree.nodes[node.index];
-    };
     NodeId node = tree.pools[start.index].node;
     if (tree.nodes[node.index].bin != bin_of(tree.settings, subject))
-        return locate(tree, subject);
-    while (node.valid() && !visit(node).box.contains(subject.position))
+        return locate(tree, subject, visited);
+    while (node.valid()) {
+        count(visited);
+        if (tree.nodes[node.index].box.contains(subject.position))
+            return descend(tree, node, subject.position, visited);
         node = tree.nodes[node.index].parent;
-    return node.valid() ? descend(tree, node, subject.position) : locate(tree, subject);
+    }
+    return locate(tree, subject, visited);
 }
 
 PoolId locate_or_grow(Subtree& tree, const Subject& subject)

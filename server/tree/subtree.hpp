@@ -77,11 +77,12 @@ Subject subject_of(const ClusterTable& clusters, std::size_t slot);
 
 Cell cell_of(const Subtree& tree, const Subject& subject);
 
-/// The pool of the subject; invalid when its cell is not there.
-PoolId locate(const Subtree& tree, const Subject& subject);
-
-/// The same, searched bottom-up from a pool nearby (section 4.3). `visited` (may be null) is raised by the
+/// The pool of the subject; invalid when its cell is not there. `visited` (may be null) is raised by the
 /// nodes looked at.
+PoolId locate(const Subtree& tree, const Subject& subject, std::uint64_t* visited = nullptr);
+
+/// The same, searched bottom-up from a pool nearby, and top-down from the first node that encloses the
+/// subject (section 4.3).
 PoolId locate_near(const Subtree& tree, PoolId start, const Subject& subject,
                    std::uint64_t* visited = nullptr);
 

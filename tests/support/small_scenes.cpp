@@ -57,6 +57,24 @@ SmallScene fountain(const std::string& name, Motion motion)
     return scene;
 }
 
+/// The rigid fountain, fine where its jets begin and along a plank across them that overlaps that.
+SmallScene fountain_of_regions()
+{
+    SmallScene scene = fountain("regions", Motion::Rigid);
+    const RegionOfInterest spring{.name = "spring",
+                                  .shape = Shape::Sphere,
+                                  .centre = {0, 0, 0.4},
+                                  .radius = 0.6,
+                                  .partition = {.max_cluster_size = 2, .max_breadth = 0.2}};
+    const RegionOfInterest plank{.name = "plank",
+                                 .shape = Shape::Box,
+                                 .centre = {0, 0, 0.6},
+                                 .half_extent = {2, 0.3, 0.2},
+                                 .partition = {.max_cluster_size = 6, .max_breadth = 0.3}};
+    scene.settings.regions = {spring, plank};
+    return scene;
+}
+
 /// Everything at once: kinds, masses, births, deaths, uniform fields and self-gravity.
 SmallScene mixture()
 {
@@ -129,6 +147,7 @@ std::vector<SmallScene> small_scenes()
     scenes.back().settings.gravity->direct_below = 0;
     scenes.push_back(fountain("fountain", Motion::Flow));
     scenes.push_back(fountain("rigid_fountain", Motion::Rigid));
+    scenes.push_back(fountain_of_regions());
     scenes.push_back(mixture());
     return scenes;
 }
