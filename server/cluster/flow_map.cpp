@@ -74,4 +74,11 @@ MapBlocks MapRule::blocks(std::uint64_t age_frames, const FlowMap* full) const
     return blocks;
 }
 
+DriftByAge::DriftByAge(const MapRule& rule) : drag_(rule.drag), step_(rule.step)
+{
+    constexpr std::uint64_t ages = 1024;
+    for (std::uint64_t age = 0; rule.kind == MapKind::Scalar && age < ages; ++age)
+        drifts_.push_back(drag_drift(drag_, double(age) * step_));
+}
+
 } // namespace slod

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "core/vectors.hpp"
 
@@ -92,5 +93,21 @@ struct MapRule {
 
 /// (1 - exp(-k t)) / k, or t without drag: how far unit velocity carries in time t.
 double drag_drift(double drag, double time);
+
+/// drag_drift by the age of a scalar map, looked up for clusters of up to a thousand frames.
+class DriftByAge {
+public:
+    explicit DriftByAge(const MapRule& rule);
+
+    double operator()(std::uint64_t age_frames) const
+    {
+        return age_frames < drifts_.size() ? drifts_[age_frames]
+                                           : drag_drift(drag_, double(age_frames) * step_);
+    }
+
+private:
+    double drag_, step_;
+    std::vector<double> drifts_;
+};
 
 } // namespace slod

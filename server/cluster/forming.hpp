@@ -16,12 +16,13 @@ namespace slod {
 struct ClusterStore {
     ClusterStore(const ClusterTable::Columns& cluster_columns, const MemberPool::Columns& member_columns,
                  const MapRule& map_rule)
-        : clusters(cluster_columns), members(member_columns), rule(map_rule)
+        : clusters(cluster_columns), members(member_columns), rule(map_rule), drift(map_rule)
     {}
 
     ClusterTable clusters;
     MemberPool members;
     MapRule rule;
+    DriftByAge drift;                           ///< of scalar maps
     float uniform_mass = 0;                     ///< of members, when they have no mass column
     std::vector<double> kind_softening_squared; ///< eps^2 by kind
 };

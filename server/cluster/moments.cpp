@@ -64,6 +64,15 @@ Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map)
     return Symmetric3::of(mapped_square(central(moments), map.a, map.b));
 }
 
+double streamed_trace(const Moments& moments, double drift)
+{
+    const double per_weight = moments.weight > 0 ? 1 / moments.weight : 0;
+    const double oo = moments.oo.trace() - per_weight * moments.o.squaredNorm();
+    const double ow = moments.ow.trace() - per_weight * moments.o.dot(moments.w);
+    const double ww = moments.ww.trace() - per_weight * moments.w.squaredNorm();
+    return oo + drift * (2 * ow + drift * ww);
+}
+
 double breadth(const Symmetric3& second_moments, double weight)
 {
     if (!(weight > 0))

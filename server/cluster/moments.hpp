@@ -35,6 +35,9 @@ MappedMoments map_moments(const Moments& moments, const MapBlocks& map);
 /// The position part of map_moments alone, which is what a frame needs.
 Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map);
 
+/// The trace of map_position_moments for a scalar map, A = 1 and B = `drift`, in a few multiplications.
+double streamed_trace(const Moments& moments, double drift);
+
 /// Diameter of the homogeneous ball with the largest principal variance of `second_moments / weight`.
 double breadth(const Symmetric3& second_moments, double weight);
 

@@ -32,7 +32,14 @@ void kick_clusters(ClusterTable& clusters, double step)
 
 void propagate_clusters(ClusterTable& clusters, const Propagator& step)
 {
+    const bool centres_only =
+        clusters.free_slots.empty() && !clusters.columns.withheld && !clusters.columns.map;
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+        if (centres_only) { // without a branch in the loop, as fast as a loop over particles
+            for (std::size_t slot = first; slot < last; ++slot)
+                step.apply(clusters.position[slot], clusters.velocity[slot]);
+            return;
+        }
         for (std::size_t slot = first; slot < last; ++slot) {
             if (!clusters.alive(slot))
                 continue;

@@ -33,17 +33,18 @@ void Simulation::State::observe(const Request& request)
 void Simulation::State::count_regions()
 {
     snapshot.regions.clear();
-    const auto add = [&](RegionRow row) {
-        RegionLoad load{.row = row, .clusters = 0, .particles = 0};
-        for (const Pool& pool : tree.subtrees[row].pools) {
+    RegionLoad rest{background_row, store.clusters.alive_count(), particle_count};
+    for (const RegionIndex::Entry& entry : tree.index.entries()) {
+        RegionLoad load{.row = entry.row, .clusters = 0, .particles = 0};
+        for (const Pool& pool : tree.subtrees[entry.row].pools) {
             load.clusters += pool.node.valid() ? pool.clusters : 0;
             load.particles += pool.node.valid() ? pool.members : 0;
         }
+        rest.clusters -= load.clusters;
+        rest.particles -= load.particles;
         snapshot.regions.push_back(load);
-    };
-    for (const RegionIndex::Entry& entry : tree.index.entries())
-        add(entry.row);
-    add(background_row);
+    }
+    snapshot.regions.push_back(rest);
 }
 
 void Simulation::State::copy_clusters()

@@ -94,6 +94,12 @@ bool move_alike(const RegionSettings& region, const VelocityBall& a, const Veloc
     return widest.sine >= 0 && widest.cosine >= limit; // below 0: more than half a turn
 }
 
+/// Of `size` times the largest principal variance, for a cluster no wider than `limit`.
+double largest_variance_sum(double limit, double size)
+{
+    return limit * limit * size / 20;
+}
+
 /// Breadth that a cluster of so many particles may have for now.
 double breadth_goal(const RegionSettings& region, std::uint32_t size)
 {
@@ -131,15 +137,20 @@ bool too_wide(const ClusterStore& store, const RegionSettings& region, ClusterSl
     if (!std::isfinite(region.max_breadth))
         return false;
     const Moments& moments = clusters.counting_moments(slot.index);
-    const Symmetric3 extent = map_position_moments(moments, clusters.blocks(slot.index, store.rule, frame));
     const double limit = age < excess_frames ? breadth_goal(region, count) : region.max_breadth;
+    if (store.rule.kind == MapKind::Scalar) { // most clusters are nowhere near their limit
+        const double trace = streamed_trace(moments, store.drift(age));
+        if (trace * (1 + 1e-9) <= largest_variance_sum(limit, moments.weight))
+            return false;
+    }
+    const Symmetric3 extent = map_position_moments(moments, clusters.blocks(slot.index, store.rule, frame));
     return wider_than(limit, extent, moments.weight);
 }
 
 bool wider_than(double limit, const Symmetric3& sum, double size)
 {
     // The largest principal variance is between a third of the trace and the whole of it.
-    const double most = limit * limit * size / 20;
+    const double most = largest_variance_sum(limit, size);
     if (sum.trace() <= most)
         return false;
     if (sum.trace() > 3 * most)
