@@ -1,9 +1,7 @@
 #include "gravity/forces.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
+#include <optional>
 
 #include "core/make_room.hpp"
 #include "core/parallel.hpp"
@@ -19,8 +17,6 @@ constexpr std::size_t direct_block = 128; ///< targets of a direct sum
 /// 50,000 98, 92, 93, 99, 117, 182 and 2.0, 1.8, 1.6, 1.5, 1.2, 1.1e-3; disc of 20,000 26, 26, 25, 26, 30, 48
 /// and 2.2, 2.2, 1.8, 1.8, 1.5, 1.5e-3.
 constexpr std::size_t most_in_group = 256;
-constexpr std::size_t pull_block = 4096; ///< bodies whose pulls are summed by one task
-constexpr double least_share = 0.01;     ///< of the mean pull: what errors are compared to at least
 
 static_assert(std::max(direct_block, most_in_group) <= BlockSum<float>::most_targets);
 
@@ -41,33 +37,6 @@ void find_runs(const ForceView& view, std::uint64_t direct_below, std::vector<Ta
         else
             append_groups(view, region, most_in_group, runs);
     }
-}
-
-/// A hundredth of the mean pull in a region: what errors are compared to at least, so that a body at a centre
-/// of symmetry does not open everything. The mean is that of square roots, squared: one close pair must not
-/// loosen the bound for all.
-double least_pull(const ForceView& view, const ForceView::Region& region, const ClusterTable& clusters,
-                  std::vector<double>& sums)
-{
-    const std::size_t count = region.body_count();
-    sums.resize(block_count(count, pull_block));
-    for_each_block(count, pull_block, [&](std::size_t first, std::size_t last) {
-        double sum = 0;
-        for (std::size_t body = first; body < last; ++body)
-            sum += std::sqrt(clusters.pull[view.slot[region.first_body + body].index]);
-        sums[first / pull_block] = sum;
-    });
-    const double mean = count > 0 ? std::accumulate(sums.begin(), sums.end(), 0.0) / double(count) : 0;
-    return least_share * mean * mean;
-}
-
-/// The smallest pull in the group; 0 when there is one that is not known.
-double group_pull(const ForceView& view, const TargetRun& group, const ClusterTable& clusters, double least)
-{
-    double pull = std::numeric_limits<double>::infinity();
-    for (std::uint32_t body = group.first; body < group.last; ++body)
-        pull = std::min(pull, clusters.pull[view.slot[body].index]);
-    return pull > 0 ? std::max(pull, least) : 0;
 }
 
 /// One group's walk through one region: depth first, without a stack, as an index that goes on or jumps.
@@ -108,12 +77,12 @@ struct Evaluation {
     double gravitational_constant;
     ScaledUnits units;
 
-    ForceCounts run(const TargetRun& targets, double least_pull, ClusterTable& clusters) const
+    ForceCounts run(const TargetRun& targets, ClusterTable& clusters) const
     {
-        const bool walks = targets.node != TargetRun::no_node;
-        ForceCounts counts{.groups = walks};
-        const double pull = walks ? group_pull(view, targets, clusters, least_pull) : 0;
-        const Opening opening(view, targets, gravity, gravitational_constant, pull);
+        std::optional<Opening> opening;
+        if (targets.node != TargetRun::no_node)
+            opening.emplace(view, targets, gravity, gravitational_constant, clusters.pull);
+        ForceCounts counts{.groups = opening.has_value()};
         BlockSum<Real> sum(view, kernels, units, targets.first, targets.last, clusters.columns.tide);
         const auto add_regions = [&](bool answered) {
             bool any = false;
@@ -121,8 +90,8 @@ struct Evaluation {
                 if (!view.acts(source, targets.region) || view.acts(targets.region, source) != answered)
                     continue;
                 const ForceView::Region& region = view.regions[source];
-                if (walks)
-                    counts.nodes_tested += walk(view, region, targets, opening, sum);
+                if (opening)
+                    counts.nodes_tested += walk(view, region, targets, *opening, sum);
                 else
                     sum.add_bodies(region.first_body, region.last_body);
                 any = true;
@@ -143,19 +112,16 @@ template <class Real>
 void run_all(const Evaluation<Real>& evaluation, ForceLists& lists, ClusterTable& clusters)
 {
     for_each_task(lists.runs.size(), [&](std::size_t index) {
-        const TargetRun& targets = lists.runs[index];
-        lists.counts[index] = evaluation.run(targets, lists.least_pull[targets.region], clusters);
+        lists.counts[index] = evaluation.run(lists.runs[index], clusters);
     });
 }
 
 } // namespace
 
-void reserve(ForceLists& lists, std::size_t bodies, std::size_t regions)
+void reserve(ForceLists& lists, std::size_t bodies)
 {
     make_room(lists.runs, bodies);
     make_room(lists.counts, bodies);
-    make_room(lists.least_pull, regions);
-    make_room(lists.sums, block_count(bodies, pull_block));
 }
 
 ForceCounts evaluate_gravity(const ForceView& view, const simd::KernelTable& kernels,
@@ -167,9 +133,6 @@ ForceCounts evaluate_gravity(const ForceView& view, const simd::KernelTable& ker
         return total;
     find_runs(view, gravity.direct_below, lists.runs);
     lists.counts.resize(lists.runs.size());
-    lists.least_pull.clear();
-    for (const ForceView::Region& region : view.regions)
-        lists.least_pull.push_back(least_pull(view, region, clusters, lists.sums));
     const ScaledUnits units = units_of(view);
     if (gravity.precision == Precision::Double)
         run_all<double>({view, kernels.in_double, gravity, gravitational_constant, units}, lists, clusters);

@@ -22,12 +22,10 @@ struct ForceCounts {
 struct ForceLists {
     std::vector<TargetRun> runs;
     std::vector<ForceCounts> counts; ///< by run
-    std::vector<double> least_pull;  ///< by region
-    std::vector<double> sums;        ///< by block of bodies
 };
 
-/// Provides memory for evaluations of so many bodies in so many regions.
-void reserve(ForceLists& lists, std::size_t bodies, std::size_t regions);
+/// Provides memory for evaluations of so many bodies.
+void reserve(ForceLists& lists, std::size_t bodies);
 
 /// Accelerations of all clusters by gravity, and tidal tensors where the table has them, written to the
 /// table: sums of G m_j d / (d^2 + q_i + q_j)^(3/2) over the bodies of all regions that act. Where fewer than

@@ -128,7 +128,7 @@ void Simulation::State::make_room()
         regrouping.reserve(tree, moving);
     if (plan.has(Phase::Moments)) {
         reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size());
-        reserve(force_lists, store.clusters.slot_capacity(), tree.subtrees.size());
+        reserve(force_lists, store.clusters.slot_capacity());
     }
 }
 

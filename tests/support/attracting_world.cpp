@@ -55,7 +55,7 @@ void AttractingWorld::rebuild()
 
 ForceCounts AttractingWorld::evaluate(const simd::KernelTable& kernels)
 {
-    return evaluate_gravity(view, kernels, settings, 1, lists_, clusters());
+    return evaluate_gravity(view, kernels, settings, 1, lists, clusters());
 }
 
 ForceCounts AttractingWorld::evaluate_again()

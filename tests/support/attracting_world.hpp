@@ -45,11 +45,11 @@ public:
 
     GravitySettings settings;
     ForceView view;
+    ForceLists lists;              ///< of the last evaluation
     std::vector<PointMass> bodies; ///< of the view
 
 private:
     World world_;
-    ForceLists lists_;
 };
 
 /// Quantiles of |a - exact| / |exact|.

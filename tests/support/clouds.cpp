@@ -70,6 +70,19 @@ ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed)
     return particles;
 }
 
+ParticleSet cloud(std::size_t count, std::uint64_t seed, const std::function<Vector3d(Random&)>& place)
+{
+    ParticleSet particles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Random random(seed, 0, i);
+        particles[i].position = place(random);
+        particles[i].velocity.setZero();
+        particles[i].id = i + 1;
+        particles[i].mass = 1 / float(count);
+    }
+    return particles;
+}
+
 void give_masses(ParticleSet& particles, double lowest, double highest, std::uint64_t seed)
 {
     for (Particle& particle : particles)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "cluster/particles.hpp"
 #include "core/random.hpp"
@@ -24,6 +25,10 @@ ParticleSet cube(std::size_t count, double half_side, std::uint64_t seed,
 /// `count` particles of a Plummer sphere with scale length 1 and mass 1 in all, cut at radius 10, with
 /// isotropic velocities of the local dispersion (for G = 1). Ids from 1 on.
 ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed);
+
+/// `count` particles of mass 1 in all, at rest where `place` puts them with a random sequence of each one's
+/// own. Ids from 1 on.
+ParticleSet cloud(std::size_t count, std::uint64_t seed, const std::function<Vector3d(Random&)>& place);
 
 /// Masses uniform in [lowest, highest].
 void give_masses(ParticleSet& particles, double lowest, double highest, std::uint64_t seed);

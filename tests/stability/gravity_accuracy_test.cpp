@@ -1,0 +1,174 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/attracting_world.hpp"
+#include "support/clouds.hpp"
+
+// What the walk of the tree misses beside a direct sum in double, over the shapes that break tree codes. Nodes
+// act by their masses and centres alone.
+namespace slod::test {
+namespace {
+
+constexpr double softening = 0.01;
+
+Vector3d normal(Random& random, double sigma)
+{
+    const double x = random.normal(), y = random.normal();
+    return sigma * Vector3d(x, y, random.normal());
+}
+
+Vector3d in_unit_box(Random& random)
+{
+    const double x = random.uniform(), y = random.uniform();
+    return {x, y, random.uniform()};
+}
+
+/// Surface density exp(-R), thickness 0.05.
+Vector3d in_exponential_disc(Random& random)
+{
+    const double radius = -std::log(random.uniform() * random.uniform());
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    return {radius * std::cos(angle), radius * std::sin(angle), 0.05 * random.normal()};
+}
+
+AttractingWorld walked(const ParticleSet& particles)
+{
+    AttractingWorld world(particles, softening);
+    world.settings.direct_below = 0;
+    return world;
+}
+
+/// Errors at the default tolerance, as in any frame after the first.
+ForceErrors default_errors(const ParticleSet& particles)
+{
+    AttractingWorld world = walked(particles);
+    world.evaluate_again();
+    return force_errors(world);
+}
+
+ForceErrors geometric_errors(AttractingWorld& world, double angle)
+{
+    world.settings.opening = OpeningCriterion::Geometric;
+    world.settings.opening_angle = angle;
+    world.evaluate();
+    return force_errors(world);
+}
+
+// The error of a node falls as the square of the angle: from 0.9 to 0.3, by 9.
+TEST(GravityAccuracy, G12_ErrorsFallWithTheOpeningAngle)
+{
+    AttractingWorld world = walked(plummer_sphere(20'000, 1));
+    ForceErrors wider = geometric_errors(world, 0.9);
+    const ForceErrors widest = wider;
+    for (const double angle : {0.7, 0.5, 0.3}) {
+        const ForceErrors errors = geometric_errors(world, angle);
+        EXPECT_LT(errors.median, wider.median) << angle;
+        EXPECT_LT(errors.p99, wider.p99) << angle;
+        EXPECT_LT(errors.largest, wider.largest) << angle;
+        wider = errors;
+    }
+    EXPECT_LT(9 * wider.median, 1.5 * widest.median); // errors of many nodes cancel at random
+}
+
+TEST(GravityAccuracy, ErrorsFallWithTheForceTolerance)
+{
+    AttractingWorld world = walked(plummer_sphere(20'000, 1));
+    world.evaluate();
+    double wider = 1;
+    for (const double tolerance : {0.01, 0.003, 0.001, 0.0003}) {
+        world.settings.force_tolerance = tolerance;
+        world.evaluate();
+        const double p99 = force_errors(world).p99;
+        EXPECT_LT(p99, wider) << tolerance;
+        wider = p99;
+    }
+}
+
+// Two dense clumps far apart, one on the middle of the root: a criterion that looks at cells alone takes
+// both for one body.
+TEST(GravityAccuracy, G14_TwoClumpsDoNotDetonate)
+{
+    std::uint64_t index = 0;
+    const ForceErrors errors = default_errors(cloud(20'000, 1, [&](Random& random) {
+        return Vector3d(normal(random, 0.02) + (index++ % 2) * Vector3d(10.1, 9.9, 10));
+    }));
+    EXPECT_LE(errors.p99, 1e-2);
+    EXPECT_LE(errors.largest, 3e-2);
+}
+
+TEST(GravityAccuracy, G22_AMassSpectrumOfAMillionToOneIsNoWorse)
+{
+    ParticleSet particles = plummer_sphere(20'000, 2);
+    for (Particle& particle : particles)
+        particle.mass = float(std::pow(10.0, -6 * Random(2, 1, particle.id).uniform()));
+    EXPECT_LE(default_errors(particles).p99, 3e-3);
+}
+
+// The forces of a uniform box cancel but for a few of them, and so must the errors.
+TEST(GravityAccuracy, G31_WhereForcesCancelTheRelativeCriterionKeepsItsPromise)
+{
+    AttractingWorld world = walked(cloud(20'000, 3, in_unit_box));
+    world.evaluate_again();
+    const ForceErrors relative = force_errors(world);
+    EXPECT_LE(relative.p99, 1e-2);
+    EXPECT_LT(2 * relative.p99, geometric_errors(world, 0.7).p99);
+}
+
+// A node misses at most the tolerance, 1e-3, in one direction; some fifty nodes are near that bound, and
+// add up as a random walk of seven steps, each a few times smaller than its bound.
+TEST(GravityAccuracy, G32_ADiscIsAsGoodAsMonopolesAllow)
+{
+    EXPECT_LE(default_errors(cloud(20'000, 4, in_exponential_disc)).rms, 4e-3);
+}
+
+// Where the boxes lie changes the nodes, and each walk's errors are its own: their difference is at most their
+// sum.
+TEST(GravityAccuracy, G30_ShiftsChangeForcesByTheTreesErrorAtMost)
+{
+    const ParticleSet particles = plummer_sphere(5'000, 5);
+    AttractingWorld world = walked(particles);
+    world.evaluate_again();
+    const double rms = force_errors(world, 5'000).rms;
+    const std::vector<Vector3d> here = world.by_id();
+    constexpr int shifts = 32;
+    Vector3d bulk_sum{0, 0, 0};
+    double bulk_squares = 0;
+    for (int shift = 0; shift < shifts; ++shift) {
+        Random random(6, 0, std::uint64_t(shift));
+        const Vector3d by = 4 * in_unit_box(random);
+        ParticleSet moved = particles;
+        for (Particle& particle : moved)
+            particle.position += by;
+        AttractingWorld there_world = walked(moved);
+        there_world.evaluate_again();
+        const std::vector<Vector3d> there = there_world.by_id();
+        double squares = 0;
+        Vector3d bulk{0, 0, 0};
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            squares += (there[i] - here[i]).squaredNorm() / here[i].squaredNorm();
+            bulk += there[i] / double(here.size());
+        }
+        EXPECT_LE(std::sqrt(squares / double(here.size())), 2 * rms) << "shift by " << by.transpose();
+        bulk_sum += bulk / shifts;
+        bulk_squares += bulk.squaredNorm() / shifts;
+    }
+    // The mean of 32 random vectors: their rms over sqrt(32), and that exceeds twice itself once in 10,000.
+    EXPECT_LE(bulk_sum.norm(), 2 * std::sqrt(bulk_squares / shifts));
+}
+
+TEST(GravityAccuracy, G36_TheFirstStepIsThatOfTheGeometricCriterion)
+{
+    AttractingWorld relative = walked(plummer_sphere(20'000, 7));
+    relative.evaluate();
+    AttractingWorld geometric = walked(plummer_sphere(20'000, 7));
+    geometric.settings.opening = OpeningCriterion::Geometric;
+    geometric.settings.opening_angle = 0.5;
+    geometric.evaluate();
+    EXPECT_EQ(relative.by_id(), geometric.by_id());
+    EXPECT_LE(force_errors(relative).p99, 1e-2); // of the angle's square, 1 / 4, what is left of fifty nodes
+}
+
+} // namespace
+} // namespace slod::test
