@@ -6,8 +6,8 @@
 #include "support/attracting_world.hpp"
 #include "support/clouds.hpp"
 
-// What the walk of the tree misses beside a direct sum in double, over the shapes that break tree codes. Nodes
-// act by their masses and centres alone.
+// What the walk of the tree misses beside a direct sum in double, over the shapes that break tree codes.
+// Nodes act by their masses and centres alone.
 namespace slod::test {
 namespace {
 
@@ -123,8 +123,8 @@ TEST(GravityAccuracy, G32_ADiscIsAsGoodAsMonopolesAllow)
     EXPECT_LE(default_errors(cloud(20'000, 4, in_exponential_disc)).rms, 4e-3);
 }
 
-// Where the boxes lie changes the nodes, and each walk's errors are its own: their difference is at most their
-// sum.
+// Where the boxes lie changes the nodes, and each walk's errors are its own: their difference is at most
+// their sum.
 TEST(GravityAccuracy, G30_ShiftsChangeForcesByTheTreesErrorAtMost)
 {
     const ParticleSet particles = plummer_sphere(5'000, 5);

@@ -85,9 +85,8 @@ TEST(GravityDegenerate, G17_CoincidentBodiesAreInThePotential)
 TEST(GravityDegenerate, G18_BodiesOneUnitOfRoundingApartAreHeld)
 {
     std::uint64_t index = 0;
-    AttractingWorld world = walked(cloud(1'000, 4, [&](Random&) {
-        return Vector3d(1 + double(index++ % 2) * 0x1p-52, 1, 1);
-    }));
+    AttractingWorld world =
+        walked(cloud(1'000, 4, [&](Random&) { return Vector3d(1 + double(index++ % 2) * 0x1p-52, 1, 1); }));
     world.evaluate_again();
     expect_finite(world);
     // 500 on each side pull over 2^-52, by their softening as a spring: 1/2 2^-52 / 0.05^3.
@@ -157,7 +156,8 @@ TEST(GravityDegenerate, G37_WhereNoForceIsTheCriterionDoesNotOpenEverything)
     for (std::size_t run = 0; run < world.lists.runs.size(); ++run) {
         const TargetRun& group = world.lists.runs[run];
         EXPECT_LE(world.lists.counts[run].interactions, std::uint64_t(group.last - group.first) * count / 10)
-            << "group of " << group.last - group.first << " at " << world.view.position(group.first).transpose();
+            << "group of " << group.last - group.first << " at "
+            << world.view.position(group.first).transpose();
     }
 }
 

@@ -91,6 +91,14 @@ TEST(ForceView, ANodeHasTheMassAndCentreOfItsBodiesAndBoundsThem)
             EXPECT_NEAR(node.mass, mass, 1e-13 * mass);
             const Vector3d centre = mass > 0 ? Vector3d(by_mass / mass) : by_number;
             EXPECT_LE((node.centre - centre).norm(), 1e-12);
+            double q = 0, variance = 0;
+            for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
+                q += mass > 0 ? view.mass[body] / mass * view.q[body] : 0;
+            for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
+                variance += mass > 0 ? view.mass[body] / mass * std::pow(view.q[body] - q, 2) : 0;
+            EXPECT_NEAR(node.q, q, 1e-13 * q);
+            // Float, rounded up by up to 2^-22 at each of the ten levels, in a fourth root.
+            EXPECT_NEAR(double(node.blur), std::pow(15.0 / 8 * variance, 0.25), 1e-5 * std::sqrt(q));
             for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
                 EXPECT_LE((view.position(body) - node.centre).norm(), node.radius + 1e-14);
             EXPECT_LE(node.radius, 2 * 5.1 * std::sqrt(3.0));

@@ -121,6 +121,32 @@ TEST_F(StrayTest, FoundsOneWhereTheNearestHasNoRowLeft)
     EXPECT_EQ(world.store.clusters.count[host.index], 8U);
 }
 
+TEST_F(ReformingTest, WhatIsFormedAnewInheritsTheMeanPullOfItsMembers)
+{
+    reforming.found(world.tree, test::ball(200, 0.9, 0, 1, {2, 2, 2}), 0);
+    ClusterTable& clusters = world.store.clusters;
+    double sum = 0;
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        EXPECT_EQ(clusters.pull[slot], 0); // nothing is known yet
+        clusters.pull[slot] = double(slot % 4);
+        sum += clusters.count[slot] * clusters.pull[slot];
+    }
+    for (Pool& pool : world.region().pools)
+        pool.due_frame = 3;
+    reforming.update(world.tree, 3, counts);
+    double inherited = 0;
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        if (!clusters.alive(slot))
+            continue;
+        EXPECT_LE(clusters.pull[slot], 3);
+        inherited += clusters.count[slot] * clusters.pull[slot];
+    }
+    // Members without a pull take the mean of the others in their cluster, so the sum may grow.
+    EXPECT_GE(inherited, sum * (1 - 1e-6));
+    EXPECT_LE(inherited, 200 * 3);
+    EXPECT_GT(sum, 0);
+}
+
 TEST_F(ReformingTest, APoolOfNewbornsLivesShortlyUntilTheirTidesAreKnown)
 {
     world.add(test::ball(5, 0.5, 0, 1, {2, 2, 2}), 7);

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include "gravity/opening.hpp"
+#include "support/attracting_world.hpp"
+#include "support/clouds.hpp"
+
+// The opening criterion by itself, for a group that is one body at the origin.
+namespace slod::test {
+namespace {
+
+class OpeningTest : public testing::Test {
+protected:
+    OpeningTest() : world_(cloud(1, 1, [](Random&) { return Vector3d(0, 0, 0); })), pulls_{0} {}
+
+    /// Whether a node of this radius and mass at x = distance may act as one body.
+    bool acts(double radius, double distance, double mass = 1, double q = 0, double blur = 0)
+    {
+        ForceView::Node node;
+        node.radius = float(radius);
+        node.centre = {distance, 0, 0};
+        node.mass = mass;
+        node.q = q;
+        node.blur = float(blur);
+        const Opening opening(world_.view, {0, 1, 0, 0}, settings_, G, pulls_);
+        return opening.acts_as_one(node);
+    }
+
+    static constexpr double G = 2;
+    AttractingWorld world_;
+    GravitySettings settings_{.opening_angle = 0.5, .force_tolerance = 0.01};
+    AlignedVector<double> pulls_; ///< of the one body
+};
+
+TEST_F(OpeningTest, TheGeometricCriterionLooksAtTheAngle)
+{
+    settings_.opening = OpeningCriterion::Geometric;
+    pulls_[0] = 1e30;
+    EXPECT_TRUE(acts(1, 2));
+    EXPECT_FALSE(acts(1, 1.999));
+    EXPECT_TRUE(acts(1, 2, 1e30));
+}
+
+TEST_F(OpeningTest, TheRelativeCriterionLooksAtTheError)
+{
+    pulls_[0] = 200; // G m r^2 / d^4 <= 0.01 * 200 at d = 1 for r = 0.5 and m = 4
+    EXPECT_TRUE(acts(0.5, 1, 4));
+    EXPECT_FALSE(acts(0.5, 1, 4.001));
+    EXPECT_TRUE(acts(0.5, 2, 64));
+    EXPECT_TRUE(acts(0.5, 1, 16, 1)); // softening makes the pull and its error smaller
+}
+
+TEST_F(OpeningTest, NoCriterionLetsAGroupBeWithinTheGuard)
+{
+    pulls_[0] = 1e30;
+    EXPECT_TRUE(acts(0.899, 1));
+    EXPECT_FALSE(acts(0.901, 1));
+    settings_.opening = OpeningCriterion::Geometric;
+    settings_.opening_angle = 2;
+    EXPECT_TRUE(acts(0.899, 1));
+    EXPECT_FALSE(acts(0.901, 1));
+}
+
+TEST_F(OpeningTest, ABodyWhosePullIsNotKnownAsksForTheGeometricCriterion)
+{
+    EXPECT_TRUE(acts(1, 2, 1e30));
+    EXPECT_FALSE(acts(1, 1.999, 1e-30));
+}
+
+// Half of the node with q = 0 and half with 2 at d = 1: the mean is 1, (15/8 var)^(1/4) is 1.17, and the pull is
+// (1 + 3^(-3/2)) / 2 = 0.60 instead of 2^(-3/2) = 0.35.
+TEST_F(OpeningTest, NodesOfUnlikeSofteningAreOpenedNearby)
+{
+    pulls_[0] = 1;
+    EXPECT_TRUE(acts(0, 1, 1, 1, 0));
+    EXPECT_FALSE(acts(0, 1, 1, 1, 1.17));
+    EXPECT_TRUE(acts(0, 10, 1, 1, 1.17));
+    settings_.opening = OpeningCriterion::Geometric;
+    EXPECT_FALSE(acts(0, 1, 1, 1, 1.17));
+    EXPECT_TRUE(acts(0, 10, 1, 1, 1.17));
+}
+
+TEST_F(OpeningTest, ANodeWithoutExtentActsAsOneAtAnyDistance)
+{
+    for (const OpeningCriterion criterion : {OpeningCriterion::Geometric, OpeningCriterion::Relative}) {
+        settings_.opening = criterion;
+        pulls_[0] = 1;
+        EXPECT_TRUE(acts(0, 1e-300));
+        EXPECT_TRUE(acts(0, 0));
+    }
+}
+
+} // namespace
+} // namespace slod::test
