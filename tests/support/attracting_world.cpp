@@ -42,15 +42,14 @@ AttractingWorld::AttractingWorld(const std::vector<ParticleSet>& regions, double
     if (regions.size() == 1)
         Regrouping(false, world_.context(0)).update(world_.tree, 0, ignored);
     rebuild();
+    for (std::size_t body = 0; body < view.body_count(); ++body)
+        bodies.push_back({view.position(body), view.mass[body], view.q[body]});
 }
 
 void AttractingWorld::rebuild()
 {
     measure_shapes(world_.store, settings, 1, 0);
     build(view, world_.tree, clusters(), settings);
-    bodies.clear();
-    for (std::size_t body = 0; body < view.body_count(); ++body)
-        bodies.push_back({view.position(body), view.mass[body], view.q[body]});
 }
 
 ForceCounts AttractingWorld::evaluate(const simd::KernelTable& kernels)

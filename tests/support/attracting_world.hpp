@@ -19,7 +19,7 @@ public:
     /// One region after another, each with its particles.
     explicit AttractingWorld(const std::vector<ParticleSet>& regions, double softening = 0.05);
 
-    /// Rebuilds the view with the settings as they are; done by the constructor, too.
+    /// Rebuilds the view, as every frame does; done by the constructor, too.
     void rebuild();
 
     /// Evaluates with the settings as they are.

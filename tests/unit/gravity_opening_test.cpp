@@ -66,8 +66,8 @@ TEST_F(OpeningTest, ABodyWhosePullIsNotKnownAsksForTheGeometricCriterion)
     EXPECT_FALSE(acts(1, 1.999, 1e-30));
 }
 
-// Half of the node with q = 0 and half with 2 at d = 1: the mean is 1, (15/8 var)^(1/4) is 1.17, and the pull is
-// (1 + 3^(-3/2)) / 2 = 0.60 instead of 2^(-3/2) = 0.35.
+// Half of the node with q = 0 and half with 2 at d = 1: the mean is 1, (15/8 var)^(1/4) is 1.17, and the pull
+// is (1 + 3^(-3/2)) / 2 = 0.60 instead of 2^(-3/2) = 0.35.
 TEST_F(OpeningTest, NodesOfUnlikeSofteningAreOpenedNearby)
 {
     pulls_[0] = 1;

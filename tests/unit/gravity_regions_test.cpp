@@ -78,8 +78,7 @@ TEST_P(GravityRegions, LightBodiesFeelTheHeavyOnesAllTheSame)
     const AttractingWorld world = evaluated({heavy(), light()}, Attracts::Nothing);
     for (std::size_t body = heavy_count; body < world.bodies.size(); ++body) {
         const std::vector<PointMass> acting(world.bodies.begin(), world.bodies.begin() + heavy_count);
-        const Vector3d exact =
-            acceleration_at(world.bodies[body].position, world.bodies[body].q, acting, 1);
+        const Vector3d exact = acceleration_at(world.bodies[body].position, world.bodies[body].q, acting, 1);
         EXPECT_LE((world.acceleration(body) - exact).norm(), 0.02 * exact.norm()) << body;
     }
 }
