@@ -122,6 +122,15 @@ bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterS
             !wider_than(breadth_goal(region, size), union_moments(store, a.index, b.index, frame), size));
 }
 
+double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass)
+{
+    const double ratio = region.speed_ratio;
+    const double cosine = portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine;
+    const double farthest = speed * std::sqrt(1 + ratio * ratio - 2 * ratio * cosine);
+    // Below the floor any two velocities may merge.
+    return other_mass / (mass + other_mass) * std::max(farthest, 2 * region.speed_floor);
+}
+
 bool too_wide(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot, std::uint64_t frame)
 {
     constexpr std::uint64_t excess_frames = 60;

@@ -14,6 +14,13 @@ namespace slod {
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
                std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 
+/// How much a merge within the region's limits can change the velocity of a cluster of this mass and speed,
+/// relative to the same reference, when its partner has `other_mass`: length / time. The formulas of section
+/// 6.2 are no such bounds: they leave out that a turn changes the speed, and that the faster one turns the
+/// slower. Of the velocities that the limits allow, none is farther away than the fastest one at the largest
+/// angle.
+double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass);
+
 /// Whether the cluster is to be split: wider than its region allows or, in rigid motion, drifted too far
 /// apart by its members' own velocities. Size and breadth are goals: a cluster of nearly the maximum size
 /// may be a quarter wider in its first 60 frames.
