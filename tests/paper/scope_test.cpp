@@ -93,6 +93,7 @@ TEST(Paper, A06_TheWorkFallsWithTheNumberOfParticlesPerCluster)
     SimulationSettings settings = rigid_settings(16);
     settings.gravity.emplace();
     settings.gravity->strength = 1e-12;
+    settings.gravity->direct_below = 100'000;
     Simulation simulation(settings, ball(count, 4, 0, 1), {});
     const FrameCounts counts = run(simulation, 40).counts;
     EXPECT_GE(double(count) / double(counts.clusters), 10);
