@@ -90,6 +90,7 @@ const std::map<std::string, std::uint64_t> pinned{
     {"flow", 0xd5bacadaf24b353a},     {"flow_in_double", 0x2b90d61345fe78b1}, {"stream", 0xf82267e8e4111d29},
     {"rigid", 0x728aafb62f47309a},    {"unclustered", 0xc6073eb8fc29789f},    {"walk", 0xc8c8dc580e709e82},
     {"fountain", 0x2383daeee703c239}, {"rigid_fountain", 0x4219347f4ee670eb}, {"mixture", 0x081101a57db115fd},
+    {"regions", 0x7c6677817ef7a880},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)
