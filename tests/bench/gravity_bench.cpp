@@ -1,5 +1,5 @@
-// One evaluation of the forces in a Plummer sphere of single particles: by all pairs and by walks of the tree,
-// time, cost and error.
+// One evaluation of the forces in a Plummer sphere of single particles: by all pairs and by walks of the
+// tree, time, cost and error.
 
 #include <algorithm>
 #include <chrono>
@@ -87,7 +87,8 @@ double equivalent_pairs(const Row& row, double rate)
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Measures one evaluation of the forces in a Plummer sphere, with errors on 1000 of its bodies.");
+    CLI::App app(
+        "Measures one evaluation of the forces in a Plummer sphere, with errors on 1000 of its bodies.");
     bool as_json = false, tide = false;
     int threads = 1;
     double tolerance = GravitySettings{}.force_tolerance;
