@@ -1,5 +1,5 @@
-// What the SLOD-tree costs: per cluster, per crossing, with a thousand regions of interest instead of ten, and
-// with one particle per cluster instead of a plain loop over particles.
+// What the SLOD-tree costs: per cluster, per crossing, with a thousand regions of interest instead of ten,
+// and with one particle per cluster instead of a plain loop over particles.
 
 #include <algorithm>
 #include <chrono>
@@ -22,9 +22,9 @@ namespace {
 using namespace slod;
 using Clock = std::chrono::steady_clock;
 
-constexpr double side = 100;  ///< of the cube that particles drift in
+constexpr double side = 100; ///< of the cube that particles drift in
 constexpr double speed = 3;  ///< along each axis
-constexpr int rounds = 60;    ///< frames measured
+constexpr int rounds = 60;   ///< frames measured
 
 double milliseconds_since(Clock::time_point start)
 {
@@ -85,7 +85,8 @@ std::vector<RegionOfInterest> spheres(std::size_t count)
 
 Simulation::Options timed()
 {
-    return {.isa = {}, .tick = [] { return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(); }};
+    return {.isa = {},
+            .tick = [] { return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(); }};
 }
 
 /// The median frame of a run.

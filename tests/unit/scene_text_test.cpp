@@ -78,7 +78,7 @@ public:
         for (double& component : value)
             component = number_in(range_of<double>(field));
     }
-    template <std::unsigned_integral T>
+    template <std::integral T>
     void operator()(const Field& field, T& value)
     {
         const Range range = range_of<T>(field);
@@ -133,6 +133,14 @@ Scene random_scene(std::uint64_t seed)
         emitter.kind = simulation.kinds[scrambler.below(3)].name;
         emitter.direction.z() = 1;
         emitter.direction.x() = emitter.direction.y() = -0.0;
+    }
+    for (RegionOfInterest& region : simulation.regions) {
+        region.direction = {0, 0, -1};
+        region.up = {0, 1, 0.5};
+        region.near_distance = 0;
+        region.far_distance = 5;
+        region.least_mass = region.least_speed = region.least_acceleration = 0;
+        region.most_mass = region.most_speed = region.most_acceleration = 2;
     }
     simulation.motion.shortest_life = 1U << scrambler.below(6);
     simulation.motion.longest_life = simulation.motion.shortest_life << scrambler.below(6);
@@ -273,6 +281,7 @@ TEST(SceneReference, HasEveryKeyWithUnitDefaultRangeAndHelp)
     Scene scene;
     scene.simulation.kinds.resize(1);
     scene.simulation.emitters.resize(1);
+    scene.simulation.regions.resize(1);
     scene.simulation.gravity.emplace();
     scene.simulation.uniform_gravity.emplace();
     scene.simulation.linear_drag.emplace();

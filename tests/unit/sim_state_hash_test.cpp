@@ -30,7 +30,7 @@ public:
             const ClusterSlot slot = world.add(particles, 3, 4);
             world.store.clusters.map[slot.index] = test::aged_map(world.store.rule, 5, 1, seed);
         }
-        const PoolId pool = locate(world.region(), {2, 2, 2});
+        const PoolId pool = locate(world.region(), Vector3d(2, 2, 2));
         expand(world.region(), world.store.clusters, pool, 0, 2.0);
         world.region().pools[pool.index].turn_frame = 3;
         world.region().pools[pool.index].due_frame = 7;
