@@ -194,7 +194,7 @@ void Reforming::find_targets(SlodTree& tree)
                 continue;
             target_[i] = locate_or_grow(tree, subject_of(grouping_.particles[i], grouping_.place[i]));
             if (Pool& pool = tree.pool(target_[i]); !due_now(pool))
-                start_life(pool, std::bit_ceil(std::max<std::uint64_t>(life, motion_.shortest_life)));
+                start_life(pool, std::bit_floor(std::max<std::uint64_t>(life, motion_.shortest_life)));
         }
     }
 }

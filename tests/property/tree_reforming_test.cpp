@@ -213,6 +213,75 @@ TEST(Reforming, LivesAreShortWhereTidesAreStrong)
     EXPECT_LT(2 * inner / inner_count, outer / outer_count);
 }
 
+/// Whether the particle passes the region within half of a longest life, or a rounding beside it.
+bool passes(const SlodTree& tree, const Particle& particle, RegionRow row)
+{
+    constexpr double near = 1e-5; // offsets of some 4 lengths and a life of 64 steps, in float
+    for (int life = 0; life <= 128; ++life) {
+        const Vector3d place = particle.position + 0.5 * step * life * particle.velocity;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vector3d shift(corner & 1 ? near : -near, corner & 2 ? near : -near,
+                                 corner & 4 ? near : -near);
+            if (tree.region_at(Vector3d(place + shift)) == row)
+                return true;
+        }
+    }
+    return false;
+}
+
+/// Each member of a pool that began its life in this frame is in a region where it will be in the middle of
+/// some life: of that of the pool it came from. Returns how many will stay in one region.
+std::size_t expect_where_they_will_be(Moving& moving)
+{
+    std::size_t staying = 0;
+    const SlodTree& tree = moving.world.tree;
+    const ClusterTable& clusters = moving.clusters();
+    for (std::uint32_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        const PoolRef ref{clusters.region[slot], clusters.pool[slot]};
+        if (!clusters.alive(slot) || tree.pool(ref).turn_frame != moving.frame)
+            continue;
+        for (const Particle& member : test::members(moving.world.store, {slot}, moving.frame)) {
+            EXPECT_TRUE(passes(tree, member, ref.region)) << member.position.transpose();
+            const Vector3d latest = member.position + 64 * step * member.velocity;
+            staying += tree.region_at(member.position) == ref.region && tree.region_at(latest) == ref.region;
+        }
+    }
+    return staying;
+}
+
+TEST(Reforming, SendsEveryMemberToARegionWhereItWillBeMidwayThroughALife)
+{
+    Moving moving(test::ball(2000, 3, 0.5, 5), nothing);
+    SlodTree& tree = moving.world.tree;
+    RegionOfInterest core;
+    core.shape = Shape::Sphere;
+    core.radius = 1.5;
+    core.partition = {.max_cluster_size = 4, .pool_factor = 4};
+    RegionOfInterest half = core;
+    half.shape = Shape::Box;
+    half.centre = {2, 0, 0};
+    half.half_extent = {2, 4, 4};
+    half.precedence = -1; // the core bites into it
+    const RegionRow first = open_region(tree, core);
+    const RegionRow second = open_region(tree, half);
+    settle(tree);
+    moving.advance();
+    EXPECT_GT(expect_where_they_will_be(moving), 1000U);
+    EXPECT_GT(tree.subtrees[first].pool_count(), 0U);
+    EXPECT_GT(tree.subtrees[second].pool_count(), 0U);
+    for (int frame = 0; frame < 80; ++frame) {
+        moving.advance();
+        expect_where_they_will_be(moving);
+        expect_sound(moving, 2000);
+    }
+    close_region(tree, first);
+    settle(tree);
+    moving.advance();
+    expect_sound(moving, 2000);
+    EXPECT_GT(expect_where_they_will_be(moving), 100U);
+    EXPECT_EQ(tree.subtrees[first].pool_count(), 0U);
+}
+
 TEST(Reforming, CountsWhatItDoes)
 {
     Moving moving(test::ball(1000, 3, 2, 1), sphere);
