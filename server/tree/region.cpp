@@ -65,6 +65,26 @@ Box frustum_bounds(const RegionOfInterest& region, const Sight& sight)
     return {bounds.lower.array() - margin, bounds.upper.array() + margin};
 }
 
+/// Finds the numbers that are outside of their ranges.
+struct RangeCheck {
+    Problems& found;
+
+    void operator()(const Field& field, double value) const
+    {
+        const bool within = value >= field.minimum && value <= field.maximum;
+        if (!within || (!field.infinity_allowed && std::isinf(value)))
+            found.push_back(std::string(field.key) + " = " + std::to_string(value) + " is out of range.");
+    }
+    void operator()(const Field& field, const Vector3d& value) const
+    {
+        for (const double component : value)
+            (*this)(field, component);
+    }
+    template <class Other>
+    void operator()(const Field&, const Other&) const
+    {}
+};
+
 } // namespace
 
 RegionTest::RegionTest(const RegionOfInterest& region)
@@ -177,6 +197,8 @@ bool RegionTest::covers(const Box& box) const
 Problems problems(const RegionOfInterest& region)
 {
     Problems found;
+    RegionOfInterest visited = region;
+    for_each_field(visited, RangeCheck{found});
     if (region.shape == Shape::Frustum) {
         if (region.direction.isZero(0))
             found.push_back(

@@ -103,7 +103,7 @@ private:
     double least_mass_, most_mass_, least_speed_, most_speed_, least_acceleration_, most_acceleration_;
 };
 
-/// What no single field's range can say is wrong with a region, each with the key in front.
+/// What is wrong with a region, each with the key in front.
 Problems problems(const RegionOfInterest& region);
 
 template <class Visitor>
