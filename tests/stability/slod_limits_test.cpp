@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "support/clouds.hpp"
+#include "support/rigid_scenes.hpp"
+#include "support/rigid_world.hpp"
+
+// Clusters of one particle, of all particles and in degenerate places, and the tree over a long time.
+namespace slod::test {
+namespace {
+
+TEST(SlodStability, S07_ParticlesInOnePlaceAreDividedByTheirNumber)
+{
+    for (const std::size_t count : {9U, 64U, 1000U}) {
+        test::World world({MapKind::Identity, 0, 1}, {}, {.max_cluster_size = 8}, 1);
+        world.add(ball(count, 0, 0, 1, {0.5, 0.5, 0.5}));
+        Regrouping regrouping(true, world.context(0));
+        UpdateCounts counts;
+        for (std::uint64_t frame = 1; frame <= 100; ++frame)
+            regrouping.update(world.tree, frame, counts);
+        EXPECT_EQ(world.store.clusters.alive_count(), (count + 7) / 8);
+        EXPECT_EQ(counts.splits, 1U) << "and never again";
+        EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+    }
+    // The build fills clusters to 0.7 of the maximum; it ends, and gives the same each time.
+    Simulation one(rigid_settings(8), ball(1000, 0, 0, 1), {}),
+        other(rigid_settings(8), ball(1000, 0, 0, 1), {});
+    EXPECT_LE(run(one, 40).counts.clusters, 1000 / 5.6 + 1);
+    run(other, 40);
+    EXPECT_EQ(one.state_hash(), other.state_hash());
+}
+
+/// `count` particles at rest in a row, a square or a cube of equal distances, in a cell of side 16.
+ParticleSet lattice(int side, int dimensions)
+{
+    ParticleSet particles;
+    for (int x = 0; x < side; ++x)
+        for (int y = 0; y < (dimensions > 1 ? side : 1); ++y)
+            for (int z = 0; z < (dimensions > 2 ? side : 1); ++z) {
+                Particle particle;
+                particle.position = Vector3d(x, y, z) * (15.0 / side) + Vector3d::Constant(0.5);
+                particle.velocity.setZero();
+                particle.mass = 1;
+                particle.id = particles.size() + 1;
+                particles.push_back(particle);
+            }
+    return particles;
+}
+
+// A cell is halved along its longest side, so of a row of particles every third split divides them, of a
+// square two of three, of a cube all; one more level per axis for what does not come out even.
+TEST(SlodStability, S08_RowsSquaresAndCubesAreDividedEvenlyInAFlatTree)
+{
+    constexpr double size = 8;
+    for (const auto& [side, dimensions] : {std::pair{4096, 1}, std::pair{64, 2}, std::pair{16, 3}}) {
+        SCOPED_TRACE(dimensions);
+        RigidRules rules{.background = {.max_cluster_size = size, .pool_factor = 1}, .regions = {}};
+        rules.cell_side = 16;
+        const ParticleSet particles = lattice(side, dimensions);
+        RigidWorld world(rules, particles);
+        std::uint32_t smallest = 1000, largest = 0;
+        for (const ClusterSlot slot : world.alive()) {
+            smallest = std::min(smallest, world.clusters().count[slot.index]);
+            largest = std::max(largest, world.clusters().count[slot.index]);
+        }
+        EXPECT_LE(largest, size);
+        EXPECT_GE(smallest, size / 4) << "a pool has 8 to 16, and a cluster no less than half of 0.7 of 8";
+        int deepest = 0;
+        for (const Node& node : world.tree().subtrees.front().nodes)
+            deepest = std::max(deepest, node.depth);
+        const double levels = std::ceil(std::log2(double(particles.size()) / size)) + 2;
+        EXPECT_LE(deepest, levels * 3 / dimensions);
+    }
+}
+
+/// Everything that has no pairs: gravity, drag and wind.
+SimulationSettings windy(double max_cluster_size)
+{
+    SimulationSettings settings = rigid_settings(max_cluster_size);
+    settings.background.max_breadth = 1024;
+    settings.uniform_gravity.emplace();
+    settings.linear_drag = LinearDragSettings{0.5};
+    settings.uniform_wind = UniformWindSettings{{2, -1, 0}};
+    return settings;
+}
+
+TEST(SlodStability, S24_OneParticlePerClusterEverywhereIsTheRunWithoutClusters)
+{
+    const ParticleSet particles = ball(500, 2, 3, 1);
+    SimulationSettings settings = windy(1);
+    Simulation without(settings, particles, {});
+    settings.background.max_cluster_size = 64;
+    settings.regions = {world_region("all", 1)};
+    settings.regions[0].partition.max_breadth = 1;
+    Simulation with(settings, particles, {});
+    ASSERT_TRUE(without.plan().unclustered);
+    ASSERT_FALSE(with.plan().unclustered);
+    for (int frame = 0; frame < 200; ++frame) {
+        without.step({});
+        ASSERT_EQ(with.step({}).counts.clusters, 500U);
+    }
+    const ParticleSet expected = without.particles(), found = with.particles();
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(found[i].position, expected[i].position) << "particle " << i;
+        ASSERT_EQ(found[i].velocity, expected[i].velocity) << "particle " << i;
+    }
+}
+
+/// Largest difference between the centre of one cluster and that of free particles, in `frames` frames.
+double centre_error(const SimulationSettings& settings, std::size_t count, int frames)
+{
+    SimulationSettings single = settings;
+    single.background.max_cluster_size = 1;
+    const ParticleSet particles = ball(count, 1, 3, 1, {512, 512, 512});
+    Simulation together(settings, particles, {}), apart(single, particles, {});
+    double largest = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+        const Snapshot& snapshot = together.step({.clusters = true});
+        EXPECT_EQ(snapshot.clusters.size(), 1U);
+        apart.step({});
+        Vector3d mean(0, 0, 0);
+        for (const Particle& particle : apart.particles())
+            mean += (particle.position - Vector3d::Constant(512)) / double(count);
+        const Vector3d centre = snapshot.clusters.position[0] - Vector3d::Constant(512);
+        largest = std::max(largest, (centre - mean).norm());
+    }
+    return largest;
+}
+
+// Positions below 1024 are rounded to 2^-44 in each coordinate and frame.
+TEST(SlodStability, S25_OneClusterOfAllMovesAsTheMeanOfAllInUniformGravity)
+{
+    SimulationSettings settings = windy(1e6);
+    settings.linear_drag.reset();
+    settings.uniform_wind.reset();
+    EXPECT_LE(centre_error(settings, 5000, 100), 100 * std::sqrt(3) * 0x1p-43);
+}
+
+TEST(SlodStability, S26_LinearDragActsOnTheCentreAsOnTheMean)
+{
+    EXPECT_LE(centre_error(windy(1e6), 300, 1000), 1e-9);
+}
+
+// A swarm of forty clusters crosses a cell in two frames: what it leaves is pruned every eighth frame.
+TEST(SlodStability, S28_TheTreeDoesNotGrowInAHundredThousandFrames)
+{
+    ParticleSet particles = ball(40, 1, 0.01, 1);
+    for (Particle& particle : particles)
+        particle.velocity += Vector3d(32, 7, 0);
+    RigidWorld world({.background = {.max_cluster_size = 1, .max_breadth = 1}, .regions = {}}, particles);
+    world.advance(1000);
+    const Subtree& tree = world.tree().subtrees.front();
+    const std::size_t nodes = tree.nodes.size(), pools = tree.pools.size();
+    world.advance(99'000);
+    // The swarm spreads by 0.01 per time, from a ball of radius 1 to one of 16, where each is in its own
+    // cell.
+    EXPECT_LE(tree.nodes.size(), std::max<std::size_t>(nodes, 40 * 9));
+    EXPECT_LE(tree.pools.size(), std::max<std::size_t>(pools, 40 * 9));
+    EXPECT_LE(tree.pool_count(), 40U * 9);
+    EXPECT_EQ(world.problems(), Problems{});
+}
+
+TEST(SlodStability, S29_AParticleThatDiesLeavesTheCentreOfTheOthersAndTheLastOneLeavesNothing)
+{
+    ParticleSet particles = ball(40, 1, 1, 1, {512, 512, 512});
+    for (Particle& particle : particles) {
+        particle.expiry_frame = std::uint32_t(particle.id);
+        particle.mass = float(1 + particle.id % 3);
+    }
+    SimulationSettings settings = windy(64);
+    Simulation simulation(settings, particles, {});
+    for (std::uint64_t frame = 1; frame < 40; ++frame) {
+        const ParticleSet before = simulation.particles();
+        const Snapshot& snapshot = simulation.step({.clusters = true});
+        ASSERT_EQ(snapshot.counts.particles, 40 - frame);
+        ASSERT_EQ(snapshot.clusters.size(), 1U);
+        double mass = 0;
+        Vector3d centre(0, 0, 0);
+        for (const Particle& particle : simulation.particles()) {
+            ASSERT_GT(particle.id, frame);
+            mass += double(particle.mass);
+            centre += double(particle.mass) * (particle.position - Vector3d::Constant(512));
+        }
+        ASSERT_EQ(snapshot.clusters.mass[0], mass);
+        ASSERT_LE((snapshot.clusters.position[0] - Vector3d::Constant(512) - centre / mass).norm(), 1e-12);
+    }
+    EXPECT_EQ(simulation.step({}).counts.clusters, 0U);
+    EXPECT_EQ(run(simulation, 20).counts.pools, 0U);
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+} // namespace
+} // namespace slod::test

@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/clouds.hpp"
+#include "support/merging_pairs.hpp"
+#include "support/rigid_scenes.hpp"
+#include "support/rigid_world.hpp"
+#include "support/totals.hpp"
+#include "tree/merge_rules.hpp"
+
+// Merges and splits: what they keep, and what they may change.
+namespace slod::test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double float_rounding = 0x1p-24; // of an offset, relative
+
+/// Merges and splits particles that do not move meanwhile, by maximum sizes from 1 to 64 and back.
+struct RoundTrip {
+    explicit RoundTrip(const ParticleSet& all) : world({MapKind::Identity, 0, 1}, {}, region(), 8)
+    {
+        for (const Particle& particle : all)
+            world.add({particle});
+    }
+
+    static RegionSettings region()
+    {
+        RegionSettings settings;
+        settings.speed_floor = 1000; // all may merge
+        return settings;
+    }
+
+    void run()
+    {
+        Regrouping regrouping(true, world.context(0));
+        for (const double size : {64.0, 5.0, 32.0, 1.0}) {
+            world.region().settings.max_cluster_size = size;
+            for (int i = 0; i < 100; ++i) {
+                world.store.members.recycle(++frame);
+                regrouping.update(world.tree, frame, counts);
+            }
+        }
+    }
+
+    test::World world;
+    UpdateCounts counts;
+    std::uint64_t frame = 0;
+};
+
+// A particle is formed into a cluster as often as its cluster is split or merged: five times on the way from
+// 1 to 64, and no more than as often again on each of the ways that follow. Each time its offset, no longer
+// than the cloud is wide, is rounded to float.
+TEST(SlodStability, S01_MergingAndSplittingRestoresEveryParticle)
+{
+    constexpr double formings = 4 * 6, width = 4, fastest = 6;
+    ParticleSet particles = ball(500, width / 2, fastest / 2, 1, {4, 4, 4});
+    give_masses(particles, 0.1, 10, 1);
+    RoundTrip trip(particles);
+    const ConservedQuantities before = conserved_quantities(trip.world.store, 0);
+    trip.run();
+    ASSERT_GT(trip.counts.merges, 400U);
+    ASSERT_EQ(trip.world.store.clusters.alive_count(), particles.size());
+    const ConservedQuantities after = conserved_quantities(trip.world.store, trip.frame);
+    const ParticleSet restored = members(trip.world.store, trip.frame);
+    double momenta = 0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        EXPECT_EQ(restored[i].mass, particles[i].mass);
+        EXPECT_LE((restored[i].position - particles[i].position).norm(), formings * width * float_rounding);
+        EXPECT_LE((restored[i].velocity - particles[i].velocity).norm(), formings * fastest * float_rounding);
+        momenta += double(particles[i].mass) * particles[i].velocity.norm();
+    }
+    EXPECT_NEAR(after.mass, before.mass, 1e-14 * before.mass);
+    EXPECT_LE((after.momentum - before.momentum).norm(), 1e-13 * momenta);
+    // Each product of an offset and a velocity has two factors that are rounded.
+    EXPECT_LE((after.angular_momentum - before.angular_momentum).norm(),
+              2 * formings * width * fastest * before.mass * float_rounding);
+}
+
+// What the centres lose in a merge their members have about them.
+TEST(SlodStability, S02_EveryMergeTurnsTheCentresEnergyIntoInternalEnergy)
+{
+    constexpr double formings = 5, fastest = 6;
+    ParticleSet particles = ball(500, 2, fastest / 2, 1, {4, 4, 4});
+    give_masses(particles, 0.1, 10, 1);
+    RoundTrip trip(particles);
+    trip.world.region().settings.max_cluster_size = 64;
+    Regrouping regrouping(true, trip.world.context(0));
+    const auto of_centres = [&] {
+        double energy = 0;
+        const ClusterTable& clusters = trip.world.store.clusters;
+        for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot)
+            if (clusters.alive(slot))
+                energy += 0.5 * clusters.mass(slot) * clusters.velocity[slot].squaredNorm();
+        return energy;
+    };
+    const double before = conserved_quantities(trip.world.store, 0).kinetic_energy;
+    EXPECT_NEAR(of_centres(), before, 1e-13 * before);
+    for (std::uint64_t frame = 1; frame <= 100; ++frame) {
+        regrouping.update(trip.world.tree, frame, trip.counts);
+        const double now = conserved_quantities(trip.world.store, frame).kinetic_energy;
+        // A square has two factors, no relative velocity exceeds the cloud's, and 1/2 is in the energy.
+        ASSERT_NEAR(now, before, formings * fastest * fastest * totals(particles).mass * float_rounding);
+    }
+    EXPECT_LT(of_centres(), 0.5 * before);
+}
+
+TEST(SlodStability, S03_EveryMergeKeepsTheBoundThatThePapersFormulasBreak)
+{
+    const RegionSettings limits{.speed_ratio = 4, .angle_deg = 90};
+    std::vector<MergingPair> pairs = random_pairs(20'000, 3);
+    merge_pairs(pairs, limits);
+    std::size_t merged = 0, speed_broken = 0, direction_broken = 0;
+    for (const MergingPair& pair : pairs) {
+        if (!pair.merged)
+            continue;
+        ++merged;
+        const double speed = pair.velocity.norm(), share = pair.other_mass / (pair.mass + pair.other_mass);
+        const Vector3d& after = pair.merged_velocity;
+        ASSERT_LE((after - pair.velocity).norm(),
+                  velocity_change_bound(limits, speed, pair.mass, pair.other_mass) + 1e-12);
+        ASSERT_LE((after - pair.other_velocity).norm(),
+                  velocity_change_bound(limits, pair.other_velocity.norm(), pair.other_mass, pair.mass) +
+                      1e-12);
+        const double turn = std::acos(std::min(1.0, after.dot(pair.velocity) / (after.norm() * speed)));
+        speed_broken += std::abs(after.norm() - speed) > share * speed * (limits.speed_ratio - 1) ? 1 : 0;
+        direction_broken += turn > share * 90 * degree ? 1 : 0;
+    }
+    ASSERT_GT(merged, 15'000U);
+    // In 1e6 other random merges of such masses 2.6 % broke the one and 7.5 % the other formula.
+    EXPECT_GT(double(speed_broken + direction_broken), 0.01 * double(merged));
+    EXPECT_LT(double(speed_broken + direction_broken), 0.2 * double(merged));
+    RecordProperty("speed_formula_broken", std::to_string(double(speed_broken) / double(merged)));
+    RecordProperty("direction_formula_broken", std::to_string(double(direction_broken) / double(merged)));
+}
+
+Particle flying(const Vector3d& direction, std::uint64_t id)
+{
+    Particle particle;
+    particle.position = {4, 4, 4};
+    particle.velocity = direction;
+    particle.id = id;
+    particle.mass = 1;
+    return particle;
+}
+
+/// In the plane, `angle` off the direction of `v`.
+Vector3d turned(const Vector3d& v, double angle)
+{
+    const double sine = std::sin(angle), cosine = std::cos(angle);
+    return Vector3d(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y(), 0).normalized();
+}
+
+// Each next one flies 10 degrees off the present cluster. By the means alone all 63 may merge, and the first
+// ends 37 degrees off.
+TEST(SlodStability, S04_AChainOfMergesDoesNotExceedTheLimit)
+{
+    const RegionSettings limits{.max_cluster_size = 64, .speed_ratio = 2, .angle_deg = 30};
+    ParticleSet chain{flying({1, 0, 0}, 0)};
+    Vector3d mean(1, 0, 0);
+    bool accepted = true;
+    std::size_t joined = 1;
+    for (std::uint64_t id = 1; id <= 63; ++id) {
+        const Particle next = flying(turned(mean, 10 * degree), id);
+        test::World world({MapKind::Identity, 0, 1}, {}, limits, 8);
+        accepted = accepted && may_merge(world.store, limits, world.add(chain), world.add({next}), 0);
+        chain.push_back(next);
+        if (accepted) {
+            joined = chain.size();
+            for (const Particle& a : chain)
+                for (const Particle& b : chain)
+                    ASSERT_GE(a.velocity.dot(b.velocity), std::cos(30 * degree) - 1e-12);
+        }
+        mean += (next.velocity - mean) / double(chain.size());
+    }
+    EXPECT_GT(joined, 2U);
+    EXPECT_LT(joined, 64U);
+    EXPECT_GT(std::acos(mean.normalized().x()), 36 * degree) << "what the union test prevents";
+}
+
+TEST(SlodStability, S21_CounterStreamingJetsNeverMerge)
+{
+    ParticleSet particles = cube(2000, 1, 1);
+    Random random(21, 0, 0);
+    for (Particle& particle : particles)
+        particle.velocity =
+            (particle.id % 2 == 0 ? 1 : -1) * (Vector3d(1, 0, 0) + 0.05 * Vector3d(point_in_ball(random, 1)));
+    RegionSettings region{.max_cluster_size = 32, .speed_ratio = 3, .angle_deg = 170};
+    region.velocity_reference = VelocityReference::Rest;
+    RigidWorld world({.background = region, .regions = {}}, particles, true);
+    const auto flux = [&](double side) {
+        double sum = 0;
+        for (const ClusterSlot slot : world.alive())
+            if (side * world.clusters().velocity[slot.index].x() > 0)
+                sum += world.clusters().mass(slot.index) * world.clusters().velocity[slot.index].x();
+        return sum;
+    };
+    const double forth = flux(1), back = flux(-1);
+    world.advance(100);
+    EXPECT_LT(world.clusters().alive_count(), 500U);
+    for (const ClusterSlot slot : world.alive()) {
+        const ParticleSet members = world.members(slot);
+        for (const Particle& particle : members)
+            ASSERT_GT(particle.velocity.x() * members.front().velocity.x(), 0);
+    }
+    EXPECT_NEAR(flux(1), forth, 1e-12 * forth);
+    EXPECT_NEAR(flux(-1), back, 1e-12 * forth);
+}
+
+TEST(SlodStability, S22_ARestingPileMergesBelowTheSpeedFloor)
+{
+    for (const double speed : {0.0, 1e-300, 1e-9}) {
+        ParticleSet particles = ball(1000, 1, speed, 1);
+        RigidRules rules{.background = {.max_cluster_size = 16, .speed_floor = 1e-6}, .regions = {}};
+        rules.background.velocity_reference = VelocityReference::Rest;
+        RigidWorld world(rules, particles, true);
+        world.advance(100);
+        EXPECT_LT(world.clusters().alive_count(), 1000U / 8) << "speed " << speed;
+        for (const ClusterSlot slot : world.alive())
+            EXPECT_TRUE(world.clusters().velocity[slot.index].allFinite());
+        EXPECT_EQ(world.problems(), Problems{});
+    }
+}
+
+} // namespace
+} // namespace slod::test

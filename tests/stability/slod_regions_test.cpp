@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "support/clouds.hpp"
+#include "support/random_regions.hpp"
+#include "support/rigid_scenes.hpp"
+#include "support/rigid_world.hpp"
+
+// Regions of interest that move, meet, come and go, or ask for what makes no sense.
+namespace slod::test {
+namespace {
+
+// Membership is exact in every frame, so that nothing keeps a cluster from changing its cell as often as it
+// crosses a face; what that must not do is to form anything anew. A transfer alone relinks a list.
+TEST(SlodStability, S05_JitterOverAFaceOfACellFormsNothingAnew)
+{
+    for (const double amplitude : {1e-3, 1e-16}) {
+        test::World world({MapKind::Identity, 0, 1}, {}, {.max_cluster_size = 16}, 1);
+        const ClusterSlot slot = world.add(ball(10, 0.2, 0, 1, {1, 0.5, 0.5}));
+        Regrouping regrouping(true, world.context(0));
+        UpdateCounts counts;
+        for (std::uint64_t frame = 1; frame <= 10'000; ++frame) {
+            world.store.clusters.position[slot.index].x() = 1 + (frame % 2 == 0 ? amplitude : -amplitude);
+            regrouping.update(world.tree, frame, counts);
+        }
+        EXPECT_LE(counts.crossings, 10'000U);
+        EXPECT_EQ(counts.reformed_members, 0U);
+        EXPECT_EQ(world.region().pool_count(), 1U) << "the cell that was left is gone";
+        EXPECT_EQ(members(world.store, 10'000).size(), 10U);
+        EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+    }
+}
+
+// A hundred clusters on the face of a fine region, whose face jitters.
+TEST(SlodStability, S05_JitterOverAFaceOfARegionSplitsAndMergesAtMostEveryTenthFrame)
+{
+    SimulationSettings settings = rigid_settings(16);
+    settings.regions = {box_region("fine", {-2, 0, 0}, {2, 2, 2}, 4)};
+    Simulation simulation(settings, cube(1600, 1, 1), {});
+    run(simulation, 200);
+    constexpr int frames = 2000;
+    std::uint64_t churn = 0, clusters = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+        RegionOfInterest fine = settings.regions[0];
+        fine.centre.x() += frame % 2 == 0 ? 1e-3 : -1e-3;
+        ASSERT_EQ(simulation.change_region(fine), Problems{});
+        const FrameCounts counts = simulation.step({}).counts;
+        churn += counts.splits + counts.merges;
+        clusters += counts.clusters;
+        ASSERT_EQ(counts.particles, 1600U);
+    }
+    EXPECT_LE(churn, clusters / 10);
+    RecordProperty("churn_per_frame", std::to_string(double(churn) / frames));
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+TEST(SlodStability, S09_ARegionOfNoSizeIsEmptyAndOneThatMakesNoSenseIsRefused)
+{
+    const SimulationSettings settings = rigid_settings(16);
+    const ParticleSet particles = ball(1000, 1, 0.5, 1);
+    Simulation untouched(settings, particles, {}), simulation(settings, particles, {});
+    run(untouched, 20);
+    ASSERT_EQ(simulation.add_region(ball_region("point", {0, 0, 0}, 0, 1)), Problems{});
+    ASSERT_EQ(simulation.add_region(box_region("line", {0, 0, 0}, {1, 0, 1}, 1)), Problems{});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(simulation.add_region(ball_region("negative", {0, 0, 0}, -1, 1)), Problems{});
+    EXPECT_NE(simulation.add_region(box_region("inside-out", {0, 0, 0}, {1, -1, 1}, 1)), Problems{});
+    EXPECT_NE(simulation.add_region(ball_region("nowhere", {nan, 0, 0}, 1, 1)), Problems{});
+    EXPECT_NE(simulation.add_region(ball_region("no-radius", {0, 0, 0}, nan, 1)), Problems{});
+    EXPECT_NE(simulation.add_region(ball_region("no-size", {0, 0, 0}, 1, nan)), Problems{});
+    const Snapshot& snapshot = run(simulation, 20);
+    EXPECT_EQ(load_of(simulation, snapshot, "point").particles, 0U);
+    EXPECT_EQ(load_of(simulation, snapshot, "line").particles, 0U);
+    EXPECT_EQ(snapshot.regions.size(), 3U);
+    const ParticleSet expected = untouched.particles(), found = simulation.particles();
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        ASSERT_EQ(found[i].position, expected[i].position) << "particle " << i;
+}
+
+TEST(SlodStability, S10_ARegionOutsideOfEverythingCostsNothingAndOneOverEverythingIsABackground)
+{
+    const ParticleSet particles = ball(2000, 2, 1, 1);
+    SimulationSettings settings = rigid_settings(8);
+    Simulation plain(settings, particles, {});
+    settings.regions = {ball_region("elsewhere", {1e6, 0, 0}, 10, 2)};
+    Simulation beside(settings, particles, {});
+    settings.background.max_cluster_size = 64;
+    settings.regions = {world_region("over-all", 8)};
+    Simulation under(settings, particles, {});
+    for (int frame = 0; frame < 40; ++frame) {
+        plain.step({});
+        const FrameCounts counts = beside.step({}).counts;
+        EXPECT_LE(counts.boundary_tests, counts.crossings) << "asked where a cluster leaves its leaf";
+        under.step({});
+    }
+    const ParticleSet expected = plain.particles(), with_other = beside.particles(),
+                      with_all = under.particles();
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(with_other[i].position, expected[i].position) << "particle " << i;
+        ASSERT_EQ(with_all[i].position, expected[i].position) << "particle " << i;
+    }
+    EXPECT_EQ(under.snapshot({}).counts.clusters, plain.snapshot({}).counts.clusters);
+}
+
+TEST(SlodStability, S10_AVastRegionOfTinyCellsHasOnlyTheCellsThatHoldSomething)
+{
+    RigidRules rules{.background = {.max_breadth = 1}, .regions = {}};
+    rules.regions = {box_region("vast", {0, 0, 0}, {1e12, 1e12, 1e12}, 8)};
+    rules.regions[0].partition.max_breadth = 1e-3;
+    RigidWorld world(rules, ball(500, 100, 10, 1));
+    world.advance(50);
+    EXPECT_EQ(world.problems(), Problems{});
+    // Beside those in use only those left in the eight frames since the last revision, each particle one.
+    EXPECT_LE(world.tree().subtrees[1].cells.size(), 500U * 9);
+}
+
+TEST(SlodStability, S11_RegionsThatMoveThroughEachOtherHoldJustWhatPrecedenceGivesThem)
+{
+    SimulationSettings settings = rigid_settings(16);
+    settings.regions = {ball_region("left", {-2, 0, 0}, 1, 4), ball_region("right", {2, 0, 0}, 1, 2)};
+    settings.regions[1].precedence = 1;
+    Simulation simulation(settings, ball(300, 3, 0.01, 1), {});
+    for (int frame = 0; frame < 10'000; ++frame) {
+        for (RegionOfInterest region : settings.regions) {
+            region.centre.x() *= std::cos(0.013 * frame);
+            ASSERT_EQ(simulation.change_region(region), Problems{});
+        }
+        const Snapshot& snapshot = simulation.step({.clusters = true});
+        ASSERT_EQ(clusters_in_wrong_regions(simulation, snapshot), 0U) << "frame " << frame;
+        ASSERT_EQ(snapshot.counts.particles, 300U);
+    }
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+/// No particle moves farther in a frame than the fastest, and a rounding to float of an offset in the cloud.
+void expect_no_jumps(const ParticleSet& before, const ParticleSet& after, double farthest)
+{
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+        ASSERT_LE((after[i].position - before[i].position).norm(), farthest + 2 * 8 * 0x1p-24);
+}
+
+// What outgrew a smaller maximum is split in a sweep of eight frames, so that no frame bears it all.
+TEST(SlodStability, S12_ARegionThatBreathesOrJumpsMovesNothingAndSpreadsItsWork)
+{
+    constexpr std::uint64_t count = 2000;
+    SimulationSettings settings = rigid_settings(32);
+    settings.regions = {ball_region("pulse", {0, 0, 0}, 1, 2)};
+    Simulation simulation(settings, ball(count, 2, 0.5, 1), {});
+    Random random(12, 0, 0);
+    for (int frame = 0; frame < 600; ++frame) {
+        RegionOfInterest pulse = settings.regions[0];
+        pulse.radius = 2 * std::abs(std::sin(0.2 * frame));
+        if (frame >= 300)
+            pulse.centre = random_point(random, 2);
+        ASSERT_EQ(simulation.change_region(pulse), Problems{});
+        const ParticleSet before = simulation.particles();
+        const FrameCounts counts = simulation.step({}).counts;
+        ASSERT_NO_FATAL_FAILURE(expect_no_jumps(before, simulation.particles(), 0.5 * settings.time.step))
+            << "frame " << frame;
+        ASSERT_LE(counts.reformed_members, count / 4) << "frame " << frame;
+    }
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+TEST(SlodStability, S13_ParametersThatChangeEveryFrameDoNoHarm)
+{
+    constexpr std::uint64_t count = 2000;
+    SimulationSettings settings = rigid_settings(256);
+    settings.background.max_breadth = 2;
+    Simulation simulation(settings, ball(count, 2, 1, 1), {});
+    const auto momentum = [&] { return simulation.snapshot({.conserved = true}).conserved.momentum; };
+    const Vector3d before = momentum();
+    for (int frame = 0; frame < 300; ++frame) {
+        RegionOfInterest background = simulation.regions().back().settings;
+        background.partition.max_cluster_size = frame % 2 == 0 ? 1 : 256;
+        background.partition.max_breadth = frame % 3 == 0 ? 0.5 : 2;
+        ASSERT_EQ(simulation.change_region(background), Problems{});
+        ASSERT_LE(simulation.step({}).counts.reformed_members, count);
+        ASSERT_EQ(simulation.problems(), Problems{}) << "frame " << frame;
+    }
+    EXPECT_LE((momentum() - before).norm(), 1e-12 * count);
+    EXPECT_EQ(simulation.particles().size(), count);
+}
+
+/// Boundary tests per cluster and frame where `count` small regions are strewn, one to a volume of 216.
+double tests_per_cluster(std::uint64_t count)
+{
+    Random random(14, 0, 0);
+    const double extent = 3 * std::cbrt(double(count));
+    SimulationSettings settings = rigid_settings(4);
+    settings.background.max_breadth = 2;
+    for (std::uint64_t i = 0; i < count; ++i)
+        settings.regions.push_back(
+            ball_region("region-" + std::to_string(i), random_point(random, extent), 1, 2));
+    Simulation simulation(settings, ball(4000, extent, 1, 1), {});
+    std::uint64_t tests = 0, clusters = 0;
+    for (int frame = 0; frame < 20; ++frame) {
+        const FrameCounts counts = simulation.step({}).counts;
+        tests += counts.boundary_tests;
+        clusters += counts.clusters;
+    }
+    return double(tests) / double(clusters);
+}
+
+TEST(SlodStability, S14_AThousandRegionsCostNoMoreThanTwiceWhatTenDo)
+{
+    const double few = tests_per_cluster(10), many = tests_per_cluster(1000);
+    EXPECT_GT(few, 0);
+    EXPECT_LE(many, 2 * few);
+}
+
+TEST(SlodStability, S15_OfEqualRegionsTheEarlierOneTakesAll)
+{
+    SimulationSettings settings = rigid_settings(16);
+    settings.regions = {ball_region("first", {0, 0, 0}, 1, 4), ball_region("second", {0, 0, 0}, 1, 4)};
+    Simulation simulation(settings, ball(1000, 1, 0.01, 1), {});
+    const auto held_by = [&](const char* name) {
+        return load_of(simulation, run(simulation, 4), name).particles;
+    };
+    EXPECT_GT(held_by("first"), 900U);
+    EXPECT_EQ(held_by("second"), 0U);
+    ASSERT_EQ(simulation.remove_region("first"), Problems{});
+    EXPECT_GT(held_by("second"), 900U);
+    ASSERT_EQ(simulation.add_region(settings.regions[0]), Problems{});
+    EXPECT_EQ(held_by("first"), 0U) << "the later one";
+}
+
+TEST(SlodStability, S16_WhatADeletedRegionHeldIsAdoptedAtOnce)
+{
+    constexpr std::uint64_t count = 100'000;
+    SimulationSettings settings = rigid_settings(64);
+    settings.regions = {ball_region("crowded", {0, 0, 0}, 4, 8)};
+    Simulation simulation(settings, ball(count, 4, 0, 1), {});
+    EXPECT_EQ(load_of(simulation, simulation.step({}), "crowded").particles, count);
+    ASSERT_EQ(simulation.remove_region("crowded"), Problems{});
+    const Snapshot& snapshot = simulation.step({});
+    ASSERT_EQ(snapshot.regions.size(), 1U);
+    EXPECT_EQ(snapshot.regions[0].particles, count);
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+} // namespace
+} // namespace slod::test
