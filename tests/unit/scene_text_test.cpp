@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "core/random.hpp"
 #include "scene/scene_check.hpp"
@@ -108,6 +109,15 @@ private:
     Random random_;
 };
 
+/// Makes a range of two random numbers one that holds something.
+void put_in_order(double& least, double& most)
+{
+    if (least > most)
+        std::swap(least, most);
+    if (least == most)
+        most = std::numeric_limits<double>::infinity();
+}
+
 /// A scene of random values that has no problems.
 Scene random_scene(std::uint64_t seed)
 {
@@ -135,12 +145,12 @@ Scene random_scene(std::uint64_t seed)
         emitter.direction.x() = emitter.direction.y() = -0.0;
     }
     for (RegionOfInterest& region : simulation.regions) {
-        region.direction = {0, 0, -1};
-        region.up = {0, 1, 0.5};
-        region.near_distance = 0;
-        region.far_distance = 5;
-        region.least_mass = region.least_speed = region.least_acceleration = 0;
-        region.most_mass = region.most_speed = region.most_acceleration = 2;
+        region.direction = {0, 0.5, -1};
+        region.up = {0, 3, 0};
+        put_in_order(region.near_distance, region.far_distance);
+        put_in_order(region.least_mass, region.most_mass);
+        put_in_order(region.least_speed, region.most_speed);
+        put_in_order(region.least_acceleration, region.most_acceleration);
     }
     simulation.motion.shortest_life = 1U << scrambler.below(6);
     simulation.motion.longest_life = simulation.motion.shortest_life << scrambler.below(6);
