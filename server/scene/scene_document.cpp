@@ -94,24 +94,6 @@ std::optional<Override> split(const std::string& text)
     return result;
 }
 
-/// Parses "key = value" or "table.key = value". A value that is no TOML and does not look as if it was
-/// meant to be (quotes, brackets) is a string. Throws toml::parse_error.
-toml::table parse_assignment(const std::string& key, const Override& change)
-{
-    constexpr std::string_view starts_of_toml = "\"'[{";
-    const bool one_line = change.value.find_first_of("\r\n") == std::string::npos;
-    const bool surely_toml =
-        !change.value.empty() && starts_of_toml.find(change.value[0]) != std::string_view::npos;
-    try {
-        if (one_line)
-            return toml::parse(key + " = " + change.value, change.origin);
-    } catch (const toml::parse_error&) {
-        if (surely_toml)
-            throw;
-    }
-    return toml::parse(key + " = " + string_text(change.value), change.origin);
-}
-
 /// The table that an override names; none, with a problem, when it cannot be reached.
 toml::table* table_of(toml::table& root, const Override& change, Problems& found)
 {
@@ -148,11 +130,12 @@ void apply(toml::table& root, const std::string& text, Problems& found)
     }
     try {
         if (!change->table.empty() && change->index.empty() && !root.contains(change->table)) {
-            toml::table whole = parse_assignment(change->table + "." + change->key, *change);
+            toml::table whole =
+                parse_assignment(change->table + "." + change->key, change->value, change->origin);
             root.insert_or_assign(change->table, std::move(*whole.get(change->table)->as_table()));
             return;
         }
-        toml::table leaf = parse_assignment(change->key, *change);
+        toml::table leaf = parse_assignment(change->key, change->value, change->origin);
         toml::table* const table = table_of(root, *change, found);
         if (table != nullptr)
             table->insert_or_assign(change->key, std::move(*leaf.get(change->key)));
@@ -197,6 +180,21 @@ std::string node_text(const toml::node& node)
     if (const auto* array = node.as_array())
         return array_text(*array);
     return node.is_table() ? "a table" : "a date or time";
+}
+
+toml::table parse_assignment(const std::string& key, const std::string& value, const std::string& origin)
+{
+    constexpr std::string_view starts_of_toml = "\"'[{";
+    const bool one_line = value.find_first_of("\r\n") == std::string::npos;
+    const bool surely_toml = !value.empty() && starts_of_toml.find(value[0]) != std::string_view::npos;
+    try {
+        if (one_line)
+            return toml::parse(key + " = " + value, origin);
+    } catch (const toml::parse_error&) {
+        if (surely_toml)
+            throw;
+    }
+    return toml::parse(key + " = " + string_text(value), origin);
 }
 
 std::optional<toml::table> read_document(const std::filesystem::path& file,

@@ -27,15 +27,12 @@ void for_each_field(TopLevel& top, Visitor&& visit)
     visit(Field{"seed", "", "Seed of every random number of the scene.", 0, 1e15}, top.seed);
 }
 
-/// Calls visit(section, settings) for each table of a scene file, in the order of the reference. `settings`
-/// is a struct with fields, a std::optional of one (an effect, active when its table is there) or a
-/// std::vector of one (a [[table]] for each element). The only list of tables.
+/// Calls visit(section, settings) for each table of a scene file that says what is simulated. `settings` is a
+/// struct with fields, a std::optional of one (an effect, active when its table is there) or a std::vector of
+/// one (a [[table]] for each element).
 template <class Visitor>
-void for_each_section(Scene& scene, Visitor&& visit)
+void for_each_section(SimulationSettings& simulation, Visitor&& visit)
 {
-    SimulationSettings& simulation = scene.simulation;
-    TopLevel top{scene.title, simulation.seed};
-    visit(Section{"", "Before the first table."}, top);
     visit(Section{"units", "What one unit of the scene is in SI."}, simulation.units);
     visit(Section{"time", "The passage of time."}, simulation.time);
     visit(Section{"kind", "The kinds of particles, at least one."}, simulation.kinds);
@@ -48,6 +45,15 @@ void for_each_section(Scene& scene, Visitor&& visit)
     visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);
     visit(Section{"uniform_wind", "Moving air; needs linear_drag."}, simulation.uniform_wind);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
+}
+
+/// Likewise for every table, in the order of the reference. The two are the only list of tables.
+template <class Visitor>
+void for_each_section(Scene& scene, Visitor&& visit)
+{
+    TopLevel top{scene.title, scene.simulation.seed};
+    visit(Section{"", "Before the first table."}, top);
+    for_each_section(scene.simulation, visit);
     visit(Section{"initial", "The particles at the start."}, scene.initial);
     visit(Section{"galaxy", "The generated galaxy, for the models galaxy and galaxy_pair."}, scene.galaxy);
     visit(Section{"encounter", "The orbit of a galaxy_pair."}, scene.encounter);

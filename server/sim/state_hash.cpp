@@ -101,12 +101,20 @@ void add_subtree(Hasher& hasher, const Subtree& tree)
     }
 }
 
+/// Whose view moves a region is no part of the state: nothing here acts on it.
+bool acts(const Field& field)
+{
+    return field.key != "follows" && field.key != "view_share";
+}
+
 void add_region(Hasher& hasher, const SlodTree::Region& region)
 {
     hasher.add(region.number);
     hasher.add(region.open);
     RegionOfInterest settings = region.settings;
-    for_each_field(settings, [&]<class T>(const Field&, const T& value) {
+    for_each_field(settings, [&]<class T>(const Field& field, const T& value) {
+        if (!acts(field))
+            return;
         if constexpr (std::is_same_v<T, std::string>)
             hasher.add(value.data(), value.size());
         else

@@ -208,6 +208,9 @@ Problems problems(const RegionOfInterest& region)
         if (region.near_distance >= region.far_distance)
             found.push_back("near is not before far; use less.");
     }
+    if (region.follows.size() > longest_client_name)
+        found.push_back("follows is longer than " + std::to_string(longest_client_name) +
+                        " characters; use a client's name.");
     const auto check = [&](std::string_view quantity, double least, double most) {
         if (least >= most)
             found.push_back("least_" + std::string(quantity) + " is not below most_" + std::string(quantity) +

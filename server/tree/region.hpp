@@ -39,6 +39,8 @@ struct RegionOfInterest {
     double aspect = 16.0 / 9;                                      ///< width by height
     double near_distance = 0;                                      ///< scene length
     double far_distance = std::numeric_limits<double>::infinity(); ///< scene length
+    std::string follows{}; ///< client whose view moves it; empty: none
+    double view_share = 1; ///< its field of view, in those of the view it follows
 
     // What of it: clusters whose particles have such a mean mass, speed and acceleration, [least, most).
     double least_mass = 0, most_mass = std::numeric_limits<double>::infinity();
@@ -49,6 +51,9 @@ struct RegionOfInterest {
 
     friend bool operator==(const RegionOfInterest&, const RegionOfInterest&) = default;
 };
+
+/// Bytes of the name of a client that a region may follow.
+inline constexpr std::size_t longest_client_name = 64;
 
 /// Name of the region that holds whatever no other one does.
 inline constexpr std::string_view background_name = "background";
@@ -125,6 +130,11 @@ void for_each_field(RegionOfInterest& region, Visitor&& visit)
           region.near_distance);
     visit(Field{"far", "length", "Distance from the eye where a frustum ends.", 0, no_maximum, true},
           region.far_distance);
+    visit(Field{"follows", "", "Name of the client whose view moves a frustum; empty: it stays."},
+          region.follows);
+    visit(Field{"view_share", "", "Field of view of a frustum that follows, as a share of the view's.", 0.01,
+                4},
+          region.view_share);
     visit(Field{"least_mass", "mass", "Only particles of this mass or more.", 0, 1e30}, region.least_mass);
     visit(Field{"most_mass", "mass", "Only particles below this mass.", 0, no_maximum, true},
           region.most_mass);

@@ -1,0 +1,129 @@
+#include "scene/assignments.hpp"
+
+#include <optional>
+#include <string_view>
+
+#include "scene/field_reader.hpp"
+#include "scene/scene_document.hpp"
+#include "scene/sections.hpp"
+
+namespace slod {
+
+namespace {
+
+/// A value that was read, or what is wrong with it, to follow the key.
+template <class Target>
+Complaint take(Target& target, const Field& field, const Assignment& assignment)
+{
+    try {
+        const toml::table parsed = parse_assignment(std::string(field.key), assignment.value, {});
+        const toml::node& node = *parsed.get(field.key);
+        const Complaint complaint = assign(target, field, node);
+        return complaint.empty() ? complaint : "= " + node_text(node) + " " + complaint;
+    } catch (const toml::parse_error& failure) {
+        return "is not TOML: " + std::string(failure.description()) + ".";
+    }
+}
+
+/// Assigns to the field named `key`, which is all or the end of the assignment's.
+template <class Settings>
+void assign_field(Settings& settings, std::string_view key, const Assignment& assignment, Problems& found)
+{
+    std::vector<std::string> keys;
+    std::optional<Complaint> complaint;
+    for_each_field(settings, [&](const Field& field, auto& target) {
+        keys.emplace_back(field.key);
+        if (field.key == key)
+            complaint = take(target, field, assignment);
+    });
+    if (!complaint)
+        complaint = "is no key here; " + suggestion(key, keys);
+    if (!complaint->empty())
+        found.push_back(assignment.key + " " + *complaint);
+}
+
+/// Assigns to a table that may have the field.
+struct AssignInTable {
+    std::string_view key;
+    const Assignment& assignment;
+    Problems& found;
+
+    template <class Settings>
+    void operator()(Settings& table) const
+    {
+        assign_field(table, key, assignment, found);
+    }
+
+    template <class Settings>
+    void operator()(std::optional<Settings>& table) const
+    {
+        if (!table)
+            table.emplace();
+        assign_field(*table, key, assignment, found);
+    }
+
+    template <class Settings>
+    void operator()(std::vector<Settings>&) const
+    {
+        found.push_back(assignment.key +
+                        " cannot be set: kinds and emitters stay, and regions have commands of their own.");
+    }
+};
+
+void assign_setting(SimulationSettings& settings, const Assignment& assignment, Problems& found)
+{
+    const std::size_t dot = assignment.key.find('.');
+    if (dot == std::string::npos) {
+        found.push_back(assignment.key + " is no setting of a table; write table.key.");
+        return;
+    }
+    const std::string_view table = std::string_view(assignment.key).substr(0, dot);
+    const std::string_view key = std::string_view(assignment.key).substr(dot + 1);
+    std::vector<std::string> tables;
+    bool known = false;
+    for_each_section(settings, [&](const Section& section, auto& content) {
+        tables.emplace_back(section.name);
+        if (section.name != table)
+            return;
+        known = true;
+        AssignInTable{key, assignment, found}(content);
+    });
+    if (!known)
+        found.push_back(assignment.key + " is in no table of the simulation; " + suggestion(table, tables));
+}
+
+} // namespace
+
+Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments)
+{
+    RegionOfInterest changed = region;
+    Problems found;
+    for (const Assignment& assignment : assignments)
+        assign_field(changed, assignment.key, assignment, found);
+    if (found.empty())
+        region = changed;
+    return found;
+}
+
+Problems assign_fields(SimulationSettings& settings, std::span<const Assignment> assignments)
+{
+    SimulationSettings changed = settings;
+    Problems found;
+    for (const Assignment& assignment : assignments)
+        assign_setting(changed, assignment, found);
+    if (found.empty())
+        settings = changed;
+    return found;
+}
+
+std::vector<Assignment> fields_of(const RegionOfInterest& region)
+{
+    RegionOfInterest copy = region; // for_each_field takes what it may change
+    std::vector<Assignment> fields;
+    for_each_field(copy, [&](const Field& field, const auto& value) {
+        fields.push_back({std::string(field.key), value_text(value)});
+    });
+    return fields;
+}
+
+} // namespace slod

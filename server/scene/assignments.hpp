@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "sim/settings.hpp"
+
+namespace slod {
+
+/// A setting by its key and its value, both as in a scene file.
+struct Assignment {
+    std::string key;
+    std::string value; ///< TOML, or plain text for a string
+
+    friend bool operator==(const Assignment&, const Assignment&) = default;
+};
+
+/// Gives fields of a region their values, by the keys of [[region]], in order. Nothing changes unless all are
+/// right by themselves; what is wrong with the region as a whole is problems(RegionOfInterest)'s to say.
+Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments);
+
+/// Likewise settings of the simulation by "table.key"; [[tables]] cannot be reached.
+Problems assign_fields(SimulationSettings& settings, std::span<const Assignment> assignments);
+
+/// All fields of a region; assign_fields() makes the same region of them.
+std::vector<Assignment> fields_of(const RegionOfInterest& region);
+
+} // namespace slod
