@@ -158,6 +158,14 @@ public:
     /// Triggered while samples wait to be taken.
     const Entity& arrival() const { return arrival_; }
 
+    /// Whether any writer is there. Any thread may ask.
+    bool matched() const
+    {
+        dds_subscription_matched_status_t status;
+        return dds_get_subscription_matched_status(endpoint_.end.handle(), &status) == DDS_RETCODE_OK &&
+               status.current_count > 0;
+    }
+
     /// How often a writer of this topic was met whose type or QoS does not fit: another version of SLOD.
     std::uint32_t misfits() const
     {

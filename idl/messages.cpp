@@ -81,4 +81,14 @@ std::size_t wire_bytes(const ServerState& message)
     return sizeof(message) + bytes(message.topics);
 }
 
+std::size_t wire_bytes(const RoiState& message)
+{
+    return sizeof(message) + bytes(message.settings);
+}
+
+std::size_t wire_bytes(const CommandReply& message)
+{
+    return sizeof(message);
+}
+
 } // namespace slod::wire

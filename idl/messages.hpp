@@ -29,6 +29,8 @@ using ServerState = ::slod_v1_ServerState;
 using Command = ::slod_v1_Command;
 using CommandReply = ::slod_v1_CommandReply;
 using View = ::slod_v1_View;
+using Assignment = ::slod_v1_Assignment;
+using ResultCode = ::slod_v1_ResultCode;
 
 /// Identity of a session or a client. All 0 is nobody's.
 using Uuid = std::array<std::uint8_t, 16>;
@@ -89,5 +91,7 @@ std::size_t wire_bytes(const Overview& message);
 std::size_t wire_bytes(const FrameManifest& message);
 std::size_t wire_bytes(const Stats& message);
 std::size_t wire_bytes(const ServerState& message);
+std::size_t wire_bytes(const RoiState& message);
+std::size_t wire_bytes(const CommandReply& message);
 
 } // namespace slod::wire

@@ -78,6 +78,9 @@ void for_each_topic(Visitor&& visit)
     std::apply([&](const auto&... row) { (visit(static_cast<const TopicInfo&>(row)), ...); }, topic_table);
 }
 
+/// Partition of the topics of all regions that have none of their own.
+inline constexpr std::string_view shared_partition = "auto";
+
 /// Partition of a region's topics; "roi/*" is all of them.
 std::string region_partition(std::string_view region);
 

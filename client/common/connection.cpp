@@ -23,6 +23,11 @@ Connection::Connection(std::uint32_t domain, wire::Profile profile, const Subscr
         arrivals_.watch(stats_reader_.emplace(participant_));
     if (subscription.overview)
         arrivals_.watch(overview_reader_.emplace(participant_));
+    if (subscription.regions)
+        arrivals_.watch(regions_reader_.emplace(participant_));
+    if (subscription.clusters && subscription.region.empty())
+        arrivals_.watch(
+            shared_clusters_reader_.emplace(participant_, wire::shared_partition, subscription.repair));
     if (subscription.clusters) {
         const std::string region = subscription.region.empty() ? "*" : subscription.region;
         arrivals_.watch(
@@ -35,6 +40,7 @@ void Connection::poll()
 {
     take_states();
     take_stats();
+    take_regions();
     take_frames();
 }
 
@@ -110,6 +116,29 @@ void Connection::take_stats()
                                  });
 }
 
+/// Of every session: which one is followed may be known later, or change.
+void Connection::take_regions()
+{
+    if (!regions_reader_)
+        return;
+    regions_reader_->take_each(samples_per_poll,
+                               [&](const wire::RoiState& state, const dds_sample_info_t& info) {
+                                   Regions& regions = regions_[wire::uuid_of(state.session)];
+                                   if (info.valid_data)
+                                       assign(regions[state.region], state);
+                                   if (info.instance_state != DDS_IST_ALIVE)
+                                       regions.erase(state.region);
+                               });
+    std::erase_if(regions_, [](const auto& entry) { return entry.second.empty(); });
+}
+
+const Connection::Regions& Connection::regions() const
+{
+    static const Regions none;
+    const auto known = session_ ? regions_.find(*session_) : regions_.end();
+    return known != regions_.end() ? known->second : none;
+}
+
 void Connection::take_frames()
 {
     if (overview_reader_)
@@ -122,13 +151,15 @@ void Connection::take_frames()
                                     });
     if (!clusters_reader_)
         return;
-    clusters_reader_->take_each(samples_per_poll,
-                                [&](const wire::Clusters& clusters, const dds_sample_info_t& info) {
-                                    if (!is_ours(clusters, info))
-                                        return;
-                                    assembler_.on_clusters(clusters);
-                                    measure(clusters_meter_, clusters, info);
-                                });
+    const auto take_clusters = [&](const wire::Clusters& clusters, const dds_sample_info_t& info) {
+        if (!is_ours(clusters, info))
+            return;
+        assembler_.on_clusters(clusters);
+        measure(clusters_meter_, clusters, info);
+    };
+    clusters_reader_->take_each(samples_per_poll, take_clusters);
+    if (shared_clusters_reader_)
+        shared_clusters_reader_->take_each(samples_per_poll, take_clusters);
     manifest_reader_->take_each(samples_per_poll,
                                 [&](const wire::FrameManifest& manifest, const dds_sample_info_t& info) {
                                     if (is_ours(manifest, info))

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -20,6 +21,7 @@ struct Subscription {
     bool stats = false;
     bool clusters = false;
     bool overview = false;
+    bool regions = false;
     std::string region{};                         ///< of the clusters; empty: all
     wire::Repair repair = wire::Repair::AskAgain; ///< of the clusters
 };
@@ -46,8 +48,17 @@ public:
     /// Null before the first sample of the present session.
     const ServerStats* stats() const { return stats_ ? &*stats_ : nullptr; }
     const OverviewNodes* overview() const { return overview_ ? &*overview_ : nullptr; }
+    using Regions = std::map<std::string, RegionInfo>; ///< by name
+    const Regions& regions() const;
+
+    /// Whether as many regions are known as the server last said it has.
+    bool knows_all_regions() const { return server() && regions().size() == server()->regions; }
+
     const ClusterFrame* frame() const { return assembler_.newest(); }
     std::uint64_t complete_frames() const { return assembler_.complete_count(); }
+
+    /// For more readers and writers of this client's.
+    const wire::Participant& participant() const { return participant_; }
 
     StreamMeter::Report clusters_traffic() const { return clusters_meter_.report(Clock::now()); }
     StreamMeter::Report overview_traffic() const { return overview_meter_.report(Clock::now()); }
@@ -56,6 +67,7 @@ public:
 private:
     void take_states();
     void take_stats();
+    void take_regions();
     void take_frames();
     void follow_session();
     template <class Message>
@@ -70,13 +82,16 @@ private:
     wire::Reader<wire::ServerState> state_reader_;
     std::optional<wire::Reader<wire::Stats>> stats_reader_;
     std::optional<wire::Reader<wire::Overview>> overview_reader_;
+    std::optional<wire::Reader<wire::RoiState>> regions_reader_;
     std::optional<wire::Reader<wire::Clusters>> clusters_reader_;
+    std::optional<wire::Reader<wire::Clusters>> shared_clusters_reader_; ///< of regions without a partition
     std::optional<wire::Reader<wire::FrameManifest>> manifest_reader_;
 
     ServerWatch watch_;
     std::optional<wire::Uuid> session_; ///< of what is kept below
     std::optional<ServerStats> stats_;
     std::optional<OverviewNodes> overview_;
+    std::map<wire::Uuid, Regions> regions_; ///< by session
     FrameAssembler assembler_;
     StreamMeter stats_meter_, overview_meter_, clusters_meter_;
 };

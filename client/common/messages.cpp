@@ -38,6 +38,7 @@ void assign(ServerInfo& to, const wire::ServerState& from)
     to.frame_rate_hz = from.frame_rate_hz;
     to.real_time_factor = from.real_time_factor;
     to.particles = from.particles;
+    to.regions = from.regions;
     to.max_sample_bytes = from.max_sample_bytes;
     to.length_m = from.units.length_m;
     to.mass_kg = from.units.mass_kg;
@@ -74,6 +75,34 @@ void assign(ServerStats& to, const wire::Stats& from)
     to.conserved = conserved_of(from.conserved);
     to.drift = conserved_of(from.drift);
     to.wire = from.wire;
+}
+
+void assign(RegionInfo& to, const wire::RoiState& from)
+{
+    to.region = from.region;
+    to.revision = from.revision;
+    to.partition = from.partition;
+    to.shape = from.shape;
+    to.centre = array_of(from.centre);
+    to.half_extent = array_of(from.half_extent);
+    to.radius = from.radius;
+    to.direction = array_of(from.direction);
+    to.up = array_of(from.up);
+    to.field_of_view_deg = from.field_of_view_deg;
+    to.aspect = from.aspect;
+    to.near_distance = from.near_distance;
+    to.far_distance = from.far_distance;
+    to.follows = from.follows;
+    to.precedence = from.precedence;
+    to.max_cluster_size = from.max_cluster_size;
+    to.max_breadth = from.max_breadth;
+    to.settings.clear();
+    for (const wire::Assignment& assignment : wire::span_of(from.settings))
+        to.settings.emplace_back(assignment.setting, assignment.value);
+    to.owner = wire::uuid_of(from.owner);
+    to.lease_s = from.lease_s;
+    to.clusters = from.clusters;
+    to.particles = from.particles;
 }
 
 void assign(RegionClusters& to, const wire::Clusters& from)

@@ -21,6 +21,7 @@ struct ServerInfo {
     double frame_rate_hz = 0;
     double real_time_factor = 0;
     std::uint64_t particles = 0;
+    std::uint32_t regions = 0;
     std::uint64_t max_sample_bytes = 0;
     double length_m = 1, mass_kg = 1, time_s = 1;
     double time_step = 0;
@@ -57,6 +58,25 @@ struct ServerStats {
     wire::PublisherCounts wire{};
 };
 
+/// A region of interest as it is.
+struct RegionInfo {
+    std::string region;
+    std::uint64_t revision = 0;
+    std::string partition;
+    std::string shape;
+    std::array<double, 3> centre{}, half_extent{};
+    double radius = 0;
+    std::array<double, 3> direction{}, up{};
+    double field_of_view_deg = 0, aspect = 0, near_distance = 0, far_distance = 0;
+    std::string follows;
+    std::int32_t precedence = 0;
+    double max_cluster_size = 0, max_breadth = 0;
+    std::vector<std::pair<std::string, std::string>> settings; ///< the other ones, values in TOML
+    wire::Uuid owner{};
+    double lease_s = 0;
+    std::uint64_t clusters = 0, particles = 0;
+};
+
 /// Nodes of one region in one frame.
 struct RegionClusters {
     std::string region;
@@ -90,6 +110,7 @@ struct OverviewNodes {
 /// Copies of a message; the sequences re-use the memory of the target.
 void assign(ServerInfo& to, const wire::ServerState& from);
 void assign(ServerStats& to, const wire::Stats& from);
+void assign(RegionInfo& to, const wire::RoiState& from);
 void assign(RegionClusters& to, const wire::Clusters& from);
 void assign(OverviewNodes& to, const wire::Overview& from);
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "cluster/conserved.hpp"
 #include "core/vectors.hpp"
 #include "idl/messages.hpp"
 
@@ -20,6 +21,12 @@ void stamp_next(Message& message, const FrameStamp& stamp)
     ++message.serial;
     message.frame = stamp.frame;
     message.time = stamp.time;
+}
+
+/// A snapshot that was not asked for conserved quantities has zeros.
+inline bool is_measured(const ConservedQuantities& quantities)
+{
+    return quantities.mass != 0 || quantities.kinetic_energy != 0;
 }
 
 inline slod_v1_Vector message_of(const Vector3d& value)

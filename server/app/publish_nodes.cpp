@@ -89,9 +89,21 @@ PublishedNode sum_of(const ClusterStates& states, std::span<const std::uint32_t>
     return node;
 }
 
-void NodeGroups::form(const ClusterStates& states, std::optional<std::uint16_t> region, std::size_t limit)
+void NodeGroups::form(const ClusterStates& states, std::span<const std::uint32_t> rows, std::size_t limit)
 {
-    select(states, region);
+    rows_.assign(rows.begin(), rows.end());
+    divide(states, limit);
+}
+
+void NodeGroups::form(const ClusterStates& states, std::size_t limit)
+{
+    rows_.resize(states.size());
+    std::iota(rows_.begin(), rows_.end(), 0U);
+    divide(states, limit);
+}
+
+void NodeGroups::divide(const ClusterStates& states, std::size_t limit)
+{
     find_box(states);
     group_count_ = std::min(rows_.size(), std::max<std::size_t>(limit, 1));
     if (group_count_ < rows_.size())
@@ -110,14 +122,6 @@ std::span<const std::uint32_t> NodeGroups::operator[](std::size_t index) const
     const std::size_t first = index * rows_.size() / group_count_;
     const std::size_t last = (index + 1) * rows_.size() / group_count_;
     return std::span(rows_).subspan(first, last - first);
-}
-
-void NodeGroups::select(const ClusterStates& states, std::optional<std::uint16_t> region)
-{
-    rows_.clear();
-    for (std::uint32_t row = 0; row < states.size(); ++row)
-        if (!region || states.region[row] == *region)
-            rows_.push_back(row);
 }
 
 void NodeGroups::find_box(const ClusterStates& states)

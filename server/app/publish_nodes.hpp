@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,9 +31,12 @@ PublishedNode sum_of(const ClusterStates& states, std::span<const std::uint32_t>
 /// their order. Keeps its memory from call to call.
 class NodeGroups {
 public:
-    /// Groups the clusters of `region`, or all where it is empty. As many groups as clusters when `limit`
-    /// allows; else `limit` runs, equally long within one, of the clusters in Morton order (Morton 1966).
-    void form(const ClusterStates& states, std::optional<std::uint16_t> region, std::size_t limit);
+    /// Groups the clusters in `rows`. As many groups as clusters when `limit` allows; else `limit` runs,
+    /// equally long within one, of the clusters in Morton order (Morton 1966).
+    void form(const ClusterStates& states, std::span<const std::uint32_t> rows, std::size_t limit);
+
+    /// Groups all clusters.
+    void form(const ClusterStates& states, std::size_t limit);
 
     std::size_t size() const { return group_count_; }
     std::size_t clusters() const { return rows_.size(); }
@@ -47,7 +49,7 @@ public:
     Vector3d origin() const { return (lower_ + upper_) / 2; }
 
 private:
-    void select(const ClusterStates& states, std::optional<std::uint16_t> region);
+    void divide(const ClusterStates& states, std::size_t limit);
     void find_box(const ClusterStates& states);
     void sort_by_place(const ClusterStates& states);
     void sort_by_digit(unsigned shift);

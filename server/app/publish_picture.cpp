@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace slod {
 
@@ -30,18 +29,17 @@ std::uint64_t packed(const ClusterId& id)
 
 } // namespace
 
-ClustersEncoder::ClustersEncoder(const wire::Uuid& session, std::string_view region_name,
-                                 std::uint16_t region)
-    : region_(region)
+ClustersEncoder::ClustersEncoder(const wire::Uuid& session, std::string_view region)
 {
     wire::set(message_.session, session);
-    wire::set(message_.region, region_name);
+    wire::set(message_.region, region);
 }
 
-const wire::Clusters& ClustersEncoder::encode(const ClusterStates& states, const FrameStamp& stamp,
+const wire::Clusters& ClustersEncoder::encode(const ClusterStates& states,
+                                              std::span<const std::uint32_t> rows, const FrameStamp& stamp,
                                               std::size_t limit)
 {
-    groups_.form(states, region_, limit);
+    groups_.form(states, rows, limit);
     resize(groups_.size());
     const Vector3d origin = groups_.origin();
     for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -96,7 +94,7 @@ OverviewEncoder::OverviewEncoder(const wire::Uuid& session)
 const wire::Overview& OverviewEncoder::encode(const ClusterStates& states, const FrameStamp& stamp,
                                               std::size_t limit)
 {
-    groups_.form(states, std::nullopt, limit);
+    groups_.form(states, limit);
     resize(groups_.size());
     const Vector3d origin = groups_.origin();
     for (std::size_t i = 0; i < groups_.size(); ++i) {

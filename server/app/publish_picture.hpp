@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace slod {
 /// Turns the clusters of one region into a message. Keeps its memory: a steady scene allocates nothing.
 class ClustersEncoder {
 public:
-    ClustersEncoder(const wire::Uuid& session, std::string_view region_name, std::uint16_t region);
+    ClustersEncoder(const wire::Uuid& session, std::string_view region);
 
-    /// At most `limit` nodes. The message is valid until the next call.
-    const wire::Clusters& encode(const ClusterStates& states, const FrameStamp& stamp, std::size_t limit);
+    /// The clusters in `rows` as at most `limit` nodes. The message is valid until the next call.
+    const wire::Clusters& encode(const ClusterStates& states, std::span<const std::uint32_t> rows,
+                                 const FrameStamp& stamp, std::size_t limit);
 
     /// The last message's entry in its frame's manifest.
     wire::RegionCount manifest_entry() const;
@@ -26,7 +28,6 @@ public:
 private:
     void resize(std::size_t nodes);
 
-    std::uint16_t region_;
     NodeGroups groups_;
     std::vector<float> position_, velocity_, mass_, covariance_;
     std::vector<std::uint32_t> particles_;

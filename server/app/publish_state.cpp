@@ -51,7 +51,6 @@ void StateEncoder::set_frame(const FrameStamp& stamp, std::uint64_t particles, c
     message_.frame = stamp.frame;
     message_.time = stamp.time;
     message_.particles = particles;
-    message_.paused = loop.paused;
     message_.frame_rate_hz = loop.frame_rate_hz;
     message_.real_time_factor = loop.real_time_factor;
 }

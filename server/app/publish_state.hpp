@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -17,6 +18,9 @@ public:
     /// `topics` are those this server writes or reads.
     StateEncoder(const wire::Uuid& session, const Publisher::Session& facts,
                  std::span<const std::string_view> topics);
+
+    void set_paused(bool paused) { message_.paused = paused; }
+    void set_regions(std::size_t count) { message_.regions = std::uint32_t(count); }
 
     /// Takes over the newest frame.
     void set_frame(const FrameStamp& stamp, std::uint64_t particles, const LoopStats& loop);

@@ -26,12 +26,6 @@ ConservedQuantities difference(const ConservedQuantities& now, const ConservedQu
             .kinetic_energy = now.kinetic_energy - before.kinetic_energy};
 }
 
-/// A snapshot that was not asked for conserved quantities has zeros.
-bool measured(const ConservedQuantities& quantities)
-{
-    return quantities.mass != 0 || quantities.kinetic_energy != 0;
-}
-
 } // namespace
 
 StatsEncoder::StatsEncoder(const wire::Uuid& session)
@@ -50,7 +44,7 @@ const wire::Stats& StatsEncoder::encode(const Snapshot& snapshot, const LoopStat
     message_.clusters = snapshot.counts.clusters;
     encode_phases(snapshot.profile);
     encode_counts(snapshot.counts);
-    encode_conserved(snapshot.conserved);
+    set_conserved(snapshot.conserved);
     message_.wire = published;
     return message_;
 }
@@ -79,13 +73,11 @@ void StatsEncoder::encode_counts(const FrameCounts& counts)
     wire::lend(message_.counts, counts_);
 }
 
-void StatsEncoder::encode_conserved(const ConservedQuantities& now)
+void StatsEncoder::set_conserved(const ConservedQuantities& now)
 {
-    message_.conserved_measured = measured(now);
-    message_.conserved = {};
-    message_.drift = {};
-    if (!message_.conserved_measured)
+    if (!is_measured(now))
         return;
+    message_.conserved_measured = true;
     if (!first_conserved_)
         first_conserved_ = now;
     message_.conserved = conserved_message(now);

@@ -14,6 +14,10 @@ class StatsEncoder {
 public:
     explicit StatsEncoder(const wire::Uuid& session);
 
+    /// Takes over conserved quantities, if they were measured: they hold until the next time. Of a frame that
+    /// is not encoded.
+    void set_conserved(const ConservedQuantities& now);
+
     /// The clusters of `snapshot` are not looked at. The message is valid until the next call.
     const wire::Stats& encode(const Snapshot& snapshot, const LoopStats& loop,
                               const wire::PublisherCounts& published);
@@ -21,7 +25,6 @@ public:
 private:
     void encode_phases(const StepProfile& profile);
     void encode_counts(const FrameCounts& counts);
-    void encode_conserved(const ConservedQuantities& now);
 
     std::vector<slod_v1_PhaseTime> phases_;
     std::vector<slod_v1_NamedCount> counts_;

@@ -1,7 +1,8 @@
 #include "app/publish_topics.hpp"
 
-#include <algorithm>
 #include <array>
+#include <string_view>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
@@ -11,11 +12,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::string_view background_region = "background";
+/// What a region holds is told so often while it changes.
+constexpr double region_counts_hz = 1;
 
-constexpr std::array written_topics{wire::topic<wire::Clusters>().name, wire::topic<wire::Overview>().name,
-                                    wire::topic<wire::FrameManifest>().name, wire::topic<wire::Stats>().name,
-                                    wire::topic<wire::ServerState>().name};
+constexpr std::array written_topics{
+    wire::topic<wire::Clusters>().name,      wire::topic<wire::Overview>().name,
+    wire::topic<wire::FrameManifest>().name, wire::topic<wire::Stats>().name,
+    wire::topic<wire::RoiState>().name,      wire::topic<wire::ServerState>().name,
+    wire::topic<wire::CommandReply>().name};
+constexpr std::array read_topics{wire::topic<wire::Command>().name, wire::topic<wire::View>().name};
+
+std::vector<std::string_view> topics_of(const WireSettings& settings)
+{
+    std::vector<std::string_view> topics(written_topics.begin(), written_topics.end());
+    if (settings.commands)
+        topics.insert(topics.end(), read_topics.begin(), read_topics.end());
+    return topics;
+}
 
 wire::Profile profile_of(WireProfile profile)
 {
@@ -29,28 +42,14 @@ double milliseconds(Clock::duration duration)
 
 } // namespace
 
-wire::PublisherCounts PublishCounters::message() const
-{
-    return {.offered_frames = frames_offered,
-            .published_frames = frames_published,
-            .skipped_frames = frames_skipped,
-            .refused_samples = samples_refused,
-            .published_bytes = bytes,
-            .encode_ms = encode_ms};
-}
-
-PublishedTopics::RegionStream::RegionStream(const wire::Participant& participant, const wire::Uuid& session,
-                                            std::string_view region, std::uint16_t index)
-    : encoder(session, region, index), writer(participant, wire::region_partition(region))
-{}
-
 PublishedTopics::PublishedTopics(const WireSettings& settings, const Publisher::Session& facts,
                                  PublishCounters& counters)
-    : settings_(settings), counters_(counters), participant_(settings.domain, profile_of(settings.profile)),
-      background_(participant_, session_, background_region, 0), manifest_encoder_(session_),
-      manifest_writer_(participant_), overview_encoder_(session_), overview_writer_(participant_),
-      stats_rate_(settings.stats_rate), stats_encoder_(session_), stats_writer_(participant_),
-      state_encoder_(session_, facts, written_topics), state_writer_(participant_)
+    : settings_(settings), outlet_(counters), participant_(settings.domain, profile_of(settings.profile)),
+      regions_(participant_, session_, outlet_), region_counts_rate_(region_counts_hz),
+      reply_writer_(participant_), manifest_encoder_(session_), manifest_writer_(participant_),
+      overview_encoder_(session_), overview_writer_(participant_), stats_rate_(settings.stats_rate),
+      stats_encoder_(session_), stats_writer_(participant_),
+      state_encoder_(session_, facts, topics_of(settings)), state_writer_(participant_)
 {
     spdlog::info("publishing domain={} session={} {}", settings.domain, wire::to_string(session_),
                  wire::configuration_source(profile_of(settings.profile)));
@@ -65,51 +64,57 @@ void PublishedTopics::publish(const OfferedFrame& frame)
     if (frame.due.clusters)
         publish_clusters(frame);
     if (frame.due.overview)
-        send(overview_writer_, overview_encoder_.encode(frame.newest.clusters, frame.clusters_stamp,
-                                                        settings_.max_overview_nodes));
+        outlet_.send(overview_writer_, overview_encoder_.encode(frame.newest.clusters, frame.clusters_stamp,
+                                                                settings_.max_overview_nodes));
     if (frame.due.any()) {
-        ++counters_.frames_published;
-        counters_.encode_ms = milliseconds(Clock::now() - begin);
+        ++outlet_.counters().frames_published;
+        outlet_.counters().encode_ms = milliseconds(Clock::now() - begin);
     }
+    stats_encoder_.set_conserved(frame.newest.conserved);
     if (stats_rate_.due(begin) && stats_writer_.matched()) {
         stats_rate_.mark(begin);
-        send(stats_writer_, stats_encoder_.encode(frame.newest, frame.loop, counters_.message()));
+        outlet_.send(stats_writer_,
+                     stats_encoder_.encode(frame.newest, frame.loop, outlet_.counters().message()));
+    }
+    if (region_counts_rate_.due(begin)) {
+        region_counts_rate_.mark(begin);
+        regions_.write_counts(frame.newest.regions);
     }
 }
 
 void PublishedTopics::publish_clusters(const OfferedFrame& frame)
 {
-    const wire::Clusters& message =
-        background_.encoder.encode(frame.newest.clusters, frame.clusters_stamp, settings_.max_clusters);
-    send(background_.writer, message);
-    warn_of_large_sample(wire::wire_bytes(message));
     manifest_encoder_.begin();
-    manifest_encoder_.add(background_.encoder.manifest_entry());
-    send(manifest_writer_, manifest_encoder_.encode(frame.clusters_stamp));
+    regions_.write_clusters(frame.newest.clusters, frame.clusters_stamp, settings_.max_clusters,
+                            manifest_encoder_);
+    warn_of_large_sample(regions_.largest_clusters());
+    outlet_.send(manifest_writer_, manifest_encoder_.encode(frame.clusters_stamp));
+}
+
+void PublishedTopics::publish(const Answer& answer)
+{
+    wire::CommandReply reply{};
+    wire::set(reply.client, answer.client);
+    reply.request = answer.number;
+    wire::set(reply.session, session_);
+    reply.result = answer.result;
+    wire::set(reply.field, answer.field);
+    wire::set(reply.text, answer.text);
+    reply.applied_frame = answer.applied_frame;
+    reply.revision = answer.revision;
+    outlet_.send(reply_writer_, reply);
 }
 
 void PublishedTopics::publish_state()
 {
+    state_encoder_.set_regions(regions_.count());
     const double idle_ms = milliseconds(Clock::now() - newest_completed_);
-    send(state_writer_, state_encoder_.encode(idle_ms, largest_sample_));
+    outlet_.send(state_writer_, state_encoder_.encode(idle_ms, outlet_.largest_sample()));
 }
 
 void PublishedTopics::take_leave()
 {
-    if (!state_writer_.dispose(state_encoder_.encode(0, largest_sample_)))
-        ++counters_.samples_refused;
-}
-
-template <class Message>
-void PublishedTopics::send(wire::Writer<Message>& writer, const Message& message)
-{
-    if (!writer.write(message)) {
-        ++counters_.samples_refused;
-        return;
-    }
-    const std::uint64_t bytes = wire::wire_bytes(message);
-    counters_.bytes += bytes;
-    largest_sample_ = std::max(largest_sample_, bytes);
+    outlet_.dispose(state_writer_, state_encoder_.encode(0, outlet_.largest_sample()));
 }
 
 /// Once, and again when samples have doubled.

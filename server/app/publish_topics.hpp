@@ -2,11 +2,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <string_view>
 
+#include "app/publish_outlet.hpp"
 #include "app/publish_picture.hpp"
 #include "app/publish_rate.hpp"
+#include "app/publish_regions.hpp"
 #include "app/publish_slot.hpp"
 #include "app/publish_state.hpp"
 #include "app/publish_stats.hpp"
@@ -15,28 +17,27 @@
 
 namespace slod {
 
-/// What the publisher counts. Any thread may read it; each number has one thread that writes it.
-struct PublishCounters {
-    std::atomic<std::uint64_t> frames_offered{0};
-    std::atomic<std::uint64_t> frames_published{0};
-    std::atomic<std::uint64_t> frames_skipped{0};
-    std::atomic<std::uint64_t> samples_refused{0};
-    std::atomic<std::uint64_t> bytes{0};
-    std::atomic<double> encode_ms{0};
-
-    wire::PublisherCounts message() const;
-};
-
 /// The server's end of the wire: a participant, and for every topic it writes an encoder and a writer.
-/// Belongs to the publisher's thread, but for the two questions.
+/// Belongs to the publisher's thread, but for the questions.
 class PublishedTopics {
 public:
     /// Throws wire::DdsError with a remedy when the domain cannot be joined.
     PublishedTopics(const WireSettings& settings, const Publisher::Session& facts, PublishCounters& counters);
 
-    /// Whether anybody reads them. Any thread may ask.
-    bool clusters_read() const { return background_.writer.matched(); }
+    /// Whether anybody reads them. Any thread may ask; for clusters the answer is as old as the last look.
+    bool clusters_read() const { return clusters_read_; }
     bool overview_read() const { return overview_writer_.matched(); }
+
+    /// Looks whether anybody reads clusters.
+    void look_for_readers() { clusters_read_ = regions_.clusters_read(); }
+
+    const wire::Participant& participant() const { return participant_; }
+    const wire::Uuid& session() const { return session_; }
+
+    /// Writes states of regions and answers to clients.
+    void publish(const RegionRecord& region) { regions_.update(region); }
+    void publish(const Answer& answer);
+    std::size_t region_count() const { return regions_.count(); }
 
     /// Writes what is due of a frame, and its statistics where they are read and their rate allows.
     void publish(const OfferedFrame& frame);
@@ -44,29 +45,23 @@ public:
     /// Writes the sign of life.
     void publish_state();
 
+    /// What the sign of life says from the next on.
+    void set_paused(bool paused) { state_encoder_.set_paused(paused); }
+
     /// Tells the clients that the server goes.
     void take_leave();
 
 private:
-    /// The cluster states of one region, and where they go.
-    struct RegionStream {
-        RegionStream(const wire::Participant& participant, const wire::Uuid& session, std::string_view region,
-                     std::uint16_t index);
-
-        ClustersEncoder encoder;
-        wire::Writer<wire::Clusters> writer;
-    };
-
     void publish_clusters(const OfferedFrame& frame);
-    template <class Message>
-    void send(wire::Writer<Message>& writer, const Message& message);
     void warn_of_large_sample(std::uint64_t bytes);
 
     WireSettings settings_;
-    PublishCounters& counters_;
+    Outlet outlet_;
     wire::Uuid session_ = wire::new_uuid();
     wire::Participant participant_;
-    RegionStream background_;
+    PublishedRegions regions_;
+    RateLimit region_counts_rate_;
+    wire::Writer<wire::CommandReply> reply_writer_;
     ManifestEncoder manifest_encoder_;
     wire::Writer<wire::FrameManifest> manifest_writer_;
     OverviewEncoder overview_encoder_;
@@ -78,7 +73,7 @@ private:
     wire::Writer<wire::ServerState> state_writer_;
 
     std::chrono::steady_clock::time_point newest_completed_ = std::chrono::steady_clock::now();
-    std::uint64_t largest_sample_ = 0;
+    std::atomic<bool> clusters_read_{false};
     std::uint64_t warned_of_sample_ = 0;
 };
 

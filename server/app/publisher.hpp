@@ -3,10 +3,16 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "app/requests.hpp"
 #include "scene/server_settings.hpp"
 #include "sim/settings.hpp"
 #include "sim/snapshot.hpp"
+
+namespace slod::wire {
+class Participant;
+}
 
 namespace slod {
 
@@ -14,8 +20,7 @@ namespace slod {
 struct LoopStats {
     double frame_rate_hz;
     double work_ms;          ///< of a frame, without the wait for the next
-    double real_time_factor; ///< scene time per wall time
-    bool paused;
+    double real_time_factor; ///< scene time, in SI seconds, per second of wall time
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop
@@ -39,6 +44,7 @@ public:
         std::uint64_t frames_offered = 0;   ///< with or without clusters
         std::uint64_t frames_published = 0; ///< whose clusters or overview were written
         std::uint64_t frames_skipped = 0;  ///< whose clusters a newer frame replaced before they were encoded
+        std::uint64_t frames_delayed = 0;  ///< whose hand-over waited for 10 ms or more
         std::uint64_t samples_refused = 0; ///< by DDS, of any topic
         std::uint64_t bytes = 0;           ///< of all samples, once per sample whatever the number of readers
         double encode_ms = 0;              ///< wall time to encode and write the last frame
@@ -57,11 +63,23 @@ public:
     /// Copies the frame into a slot that holds the newest one, and returns.
     void offer(const Snapshot& snapshot, const LoopStats& loop);
 
+    /// Sends answers and news of regions, and whether the loop is paused, ahead of every later frame. Nothing
+    /// of it is lost; what was said last of a region holds.
+    void tell(std::vector<Answer>&& answers, std::vector<RegionRecord>&& regions, bool paused);
+
+    /// How many answers it takes at present: bounded, should the publisher's thread be held up.
+    std::size_t answer_room() const;
+
     Counters counters() const;
+
+    /// For readers of this server's own.
+    const wire::Participant& participant() const;
+    const wire::Uuid& session() const;
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+    bool paused_ = false; ///< as was last told
 };
 
 } // namespace slod

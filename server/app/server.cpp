@@ -90,8 +90,7 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
         const LoopMeans& means = meter.means();
         publisher_->offer(*snapshot, {.frame_rate_hz = means.frame_rate_hz,
                                       .work_ms = means.work_ms,
-                                      .real_time_factor = means.real_time_factor,
-                                      .paused = false});
+                                      .real_time_factor = means.real_time_factor});
     }
     const Clock::time_point end = Clock::now();
     const double work_ms = milliseconds(end - begin);

@@ -34,6 +34,9 @@ struct WireSettings {
     double stats_rate = 10;                  ///< Hz, at most
     std::uint32_t max_clusters = 262'144;    ///< per region and frame; beyond it coarser nodes are published
     std::uint32_t max_overview_nodes = 4096; ///< per frame
+    bool commands = true;                    ///< clients may command
+    std::uint32_t max_commands = 1024;       ///< taken at once between two frames; the rest wait
+    std::uint32_t max_commanders = 256;      ///< clients whose last answers are remembered
 };
 
 template <class Visitor>
@@ -63,6 +66,13 @@ void for_each_field(WireSettings& wire, Visitor&& visit)
           wire.max_clusters);
     visit(Field{"max_overview_nodes", "nodes", "Most nodes of the overview.", 1, 65536},
           wire.max_overview_nodes);
+    visit(Field{"commands", "", "Take commands from clients at all."}, wire.commands);
+    visit(
+        Field{"max_commands", "", "Most commands taken at once between two frames; the rest wait.", 1, 65536},
+        wire.max_commands);
+    visit(Field{"max_commanders", "",
+                "Most clients whose last 64 answers are remembered, so that a retry applies once.", 1, 65536},
+          wire.max_commanders);
 }
 
 } // namespace slod

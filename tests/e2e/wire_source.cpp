@@ -47,8 +47,7 @@ int main(int argc, char** argv)
     while (!stop.stop_requested() && std::chrono::steady_clock::now() < end) {
         if (frames == 0 || snapshot.frame < frames) {
             ++snapshot.frame;
-            publisher.offer(snapshot,
-                            {.frame_rate_hz = 30, .work_ms = 5, .real_time_factor = 1, .paused = false});
+            publisher.offer(snapshot, {.frame_rate_hz = 30, .work_ms = 5, .real_time_factor = 1});
         }
         sleep_until(std::chrono::steady_clock::now() + 33ms, stop);
     }

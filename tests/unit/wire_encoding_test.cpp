@@ -33,8 +33,9 @@ TEST(WireEncoding, AClientReadsTheClustersThatWereEncoded)
 {
     const Snapshot snapshot = made_up_snapshot(17, 300);
     const ClusterStates& states = snapshot.clusters;
-    ClustersEncoder encoder(session, "background", 0);
-    const auto clusters = received(encoder.encode(states, {.frame = 17, .time = snapshot.time}, 1000));
+    ClustersEncoder encoder(session, "background");
+    const auto clusters =
+        received(encoder.encode(states, all_rows(states), {.frame = 17, .time = snapshot.time}, 1000));
 
     EXPECT_EQ(clusters.region, "background");
     EXPECT_EQ(clusters.frame, 17U);
@@ -63,8 +64,8 @@ TEST(WireEncoding, AClientReadsTheClustersThatWereEncoded)
 TEST(WireEncoding, TooManyClustersArePublishedAsSumsThatSaySo)
 {
     const Snapshot snapshot = made_up_snapshot(1, 1000);
-    ClustersEncoder encoder(session, "background", 0);
-    const auto clusters = received(encoder.encode(snapshot.clusters, {}, 64));
+    ClustersEncoder encoder(session, "background");
+    const auto clusters = received(encoder.encode(snapshot.clusters, all_rows(snapshot.clusters), {}, 64));
     EXPECT_EQ(clusters.mass.size(), 64U);
     EXPECT_EQ(clusters.region_clusters, 1000U);
     EXPECT_EQ(clusters.clusters_per_node, 16U);
@@ -100,9 +101,9 @@ TEST(WireEncoding, AnOverviewsRadiusIsTheRmsDistance)
 TEST(WireEncoding, SamplesAreNumberedFromOne)
 {
     const Snapshot snapshot = made_up_snapshot(1, 5);
-    ClustersEncoder encoder(session, "background", 0);
-    EXPECT_EQ(encoder.encode(snapshot.clusters, {}, 10).serial, 1U);
-    EXPECT_EQ(encoder.encode(snapshot.clusters, {}, 10).serial, 2U);
+    ClustersEncoder encoder(session, "background");
+    EXPECT_EQ(encoder.encode(snapshot.clusters, all_rows(snapshot.clusters), {}, 10).serial, 1U);
+    EXPECT_EQ(encoder.encode(snapshot.clusters, all_rows(snapshot.clusters), {}, 10).serial, 2U);
 }
 
 // Buffers grow to the largest frame and stay: a steady scene allocates nothing.
@@ -110,11 +111,11 @@ TEST(WireEncoding, ASmallerFrameReusesTheMemoryOfALargerOne)
 {
     const ClusterStates large = made_up_clusters(500, 1);
     const ClusterStates small = made_up_clusters(400, 2);
-    ClustersEncoder clusters(session, "background", 0);
+    ClustersEncoder clusters(session, "background");
     OverviewEncoder overview(session);
-    const wire::Clusters clusters_before = clusters.encode(large, {}, 1000);
+    const wire::Clusters clusters_before = clusters.encode(large, all_rows(large), {}, 1000);
     const wire::Overview overview_before = overview.encode(large, {}, 100);
-    const wire::Clusters& clusters_after = clusters.encode(small, {}, 1000);
+    const wire::Clusters& clusters_after = clusters.encode(small, all_rows(small), {}, 1000);
     const wire::Overview& overview_after = overview.encode(small, {}, 90);
     EXPECT_EQ(clusters_after.position._buffer, clusters_before.position._buffer);
     EXPECT_EQ(clusters_after.covariance._buffer, clusters_before.covariance._buffer);
@@ -130,7 +131,7 @@ TEST(WireEncoding, StatisticsHaveEveryPhaseAndEveryCount)
     client::ServerStats stats;
     wire::PublisherCounts published{};
     published.encode_ms = 1.5;
-    const LoopStats loop{.frame_rate_hz = 59, .work_ms = 7, .real_time_factor = 0.9, .paused = false};
+    const LoopStats loop{.frame_rate_hz = 59, .work_ms = 7, .real_time_factor = 0.9};
     client::assign(stats, encoder.encode(snapshot, loop, published));
 
     EXPECT_EQ(stats.frame, 17U);
@@ -167,6 +168,19 @@ TEST(WireEncoding, DriftIsSinceTheFirstMeasurement)
     EXPECT_TRUE(std::isnan(later.conserved.potential_energy));
 }
 
+// Whoever reads statistics now and then still learns what only some frames measure.
+TEST(WireEncoding, TheLastMeasurementHoldsUntilTheNext)
+{
+    StatsEncoder encoder(session);
+    Snapshot snapshot = made_up_snapshot(1, 1);
+    encoder.set_conserved(snapshot.conserved);
+    const double mass = snapshot.conserved.mass;
+    snapshot.conserved = {};
+    const wire::Stats& later = encoder.encode(snapshot, {}, {});
+    EXPECT_TRUE(later.conserved_measured);
+    EXPECT_EQ(later.conserved.mass, mass);
+}
+
 TEST(WireEncoding, WhatWasNotMeasuredIsNotClaimed)
 {
     StatsEncoder encoder(session);
@@ -180,7 +194,9 @@ TEST(WireEncoding, AClientReadsWhatTheServerSaysOfItself)
     constexpr std::array<std::string_view, 2> topics{"clusters", "stats"};
     StateEncoder encoder(session, made_up_session(), topics);
     encoder.set_frame({.frame = 9, .time = 1.5}, 77,
-                      {.frame_rate_hz = 30, .work_ms = 1, .real_time_factor = 2, .paused = true});
+                      {.frame_rate_hz = 30, .work_ms = 1, .real_time_factor = 2});
+    encoder.set_paused(true);
+    encoder.set_regions(3);
     client::ServerInfo info;
     client::assign(info, encoder.encode(12.5, 4096));
     EXPECT_EQ(info.session, session);
@@ -189,6 +205,7 @@ TEST(WireEncoding, AClientReadsWhatTheServerSaysOfItself)
     EXPECT_EQ(info.time, 1.5);
     EXPECT_EQ(info.idle_ms, 12.5);
     EXPECT_TRUE(info.paused);
+    EXPECT_EQ(info.regions, 3U);
     EXPECT_EQ(info.particles, 77U);
     EXPECT_EQ(info.max_sample_bytes, 4096U);
     EXPECT_EQ(info.mass_kg, 1.989e40);

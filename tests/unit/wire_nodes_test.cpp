@@ -40,7 +40,7 @@ void add(Totals& totals, const PublishedNode& node)
 std::vector<PublishedNode> nodes_of(const ClusterStates& states, std::size_t limit)
 {
     NodeGroups groups;
-    groups.form(states, std::nullopt, limit);
+    groups.form(states, limit);
     std::vector<PublishedNode> nodes;
     for (std::size_t i = 0; i < groups.size(); ++i)
         nodes.push_back(sum_of(states, groups[i]));
@@ -94,7 +94,7 @@ TEST_P(NodeLimit, PutsEveryClusterIntoExactlyOneGroup)
 {
     const ClusterStates states = made_up_clusters(cluster_count, 6);
     NodeGroups groups;
-    groups.form(states, std::nullopt, GetParam());
+    groups.form(states, GetParam());
     std::vector<std::uint32_t> rows;
     for (std::size_t i = 0; i < groups.size(); ++i) {
         EXPECT_LE(groups[i].size(), groups.clusters_per_group());
@@ -128,7 +128,7 @@ TEST(WireNodes, NeighboursShareANode)
     for (std::size_t row = 0; row < states.size(); row += 2)
         states.position[row].x() += 1e6;
     NodeGroups groups;
-    groups.form(states, std::nullopt, 2);
+    groups.form(states, 2);
     for (std::size_t i = 0; i < groups.size(); ++i) {
         std::set<bool> clumps;
         for (const std::uint32_t row : groups[i])
@@ -139,15 +139,16 @@ TEST(WireNodes, NeighboursShareANode)
 
 TEST(WireNodes, ARegionHasItsOwnClustersAlone)
 {
-    ClusterStates states = made_up_clusters(90, 9);
-    for (std::size_t row = 0; row < states.size(); row += 3)
-        states.region[row] = 1;
+    const ClusterStates states = made_up_clusters(90, 9);
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t row = 0; row < states.size(); row += 3)
+        own.push_back(row);
     NodeGroups groups;
-    groups.form(states, std::uint16_t{1}, 10);
+    groups.form(states, own, 10);
     EXPECT_EQ(groups.clusters(), 30U);
     for (std::size_t i = 0; i < groups.size(); ++i)
         for (const std::uint32_t row : groups[i])
-            EXPECT_EQ(states.region[row], 1);
+            EXPECT_EQ(row % 3, 0U);
 }
 
 TEST(WireNodes, WeightlessClustersWeighByTheirParticles)
@@ -165,7 +166,7 @@ TEST(WireNodes, WeightlessClustersWeighByTheirParticles)
 TEST(WireNodes, NoClustersMakeNoNodes)
 {
     NodeGroups groups;
-    groups.form({}, std::nullopt, 10);
+    groups.form({}, 10);
     EXPECT_EQ(groups.size(), 0U);
     EXPECT_EQ(groups.origin(), Vector3d(0, 0, 0));
 }
@@ -177,7 +178,7 @@ TEST(WireNodes, AClusterWithoutAPlaceIsStillCounted)
     states.position[20].y() = std::numeric_limits<double>::quiet_NaN();
     states.position[21].x() = std::numeric_limits<double>::infinity();
     NodeGroups groups;
-    groups.form(states, std::nullopt, 7);
+    groups.form(states, 7);
     std::size_t clusters = 0;
     for (std::size_t i = 0; i < groups.size(); ++i)
         clusters += groups[i].size();

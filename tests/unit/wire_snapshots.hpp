@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include "app/publisher.hpp"
 #include "core/random.hpp"
@@ -26,6 +28,14 @@ inline ClusterStates made_up_clusters(std::size_t count, std::uint64_t seed)
         states.region.push_back(0);
     }
     return states;
+}
+
+/// The rows of all of them.
+inline std::vector<std::uint32_t> all_rows(const ClusterStates& states)
+{
+    std::vector<std::uint32_t> rows(states.size());
+    std::iota(rows.begin(), rows.end(), 0U);
+    return rows;
 }
 
 /// A frame of such clusters. 60 frames per unit of scene time.
