@@ -52,9 +52,9 @@ try {
     slod::log_job(job);
     slod::Outputs outputs(line, job.origin); // before the run, which may be long
     slod::StatusDisplay status(logging);
-    slod::Server server(job.scene, std::move(job.initial.particles),
-                        {.frames = job.frames, .free_run = line.free_run},
-                        [&](const auto&... how_it_goes) { status.update(how_it_goes...); });
+    slod::Server server(job, line.free_run,
+                        {.each_second = [&](const auto&... how_it_goes) { status.update(how_it_goes...); },
+                         .record = [&](const slod::LoggedCommand& command) { outputs.record(command); }});
     const slod::RunSummary summary = server.run(signals.token());
     outputs.write(job, server, summary);
     return int(slod::compare_with_log(job, summary));

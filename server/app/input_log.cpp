@@ -1,5 +1,6 @@
 #include "app/input_log.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -57,14 +59,50 @@ InputLogHeader header_from(const Json& line)
             .initial_hash = hash_from(line.at("initial_hash"))};
 }
 
+std::vector<std::string> texts_of(const std::vector<Assignment>& settings)
+{
+    std::vector<std::string> texts;
+    for (const Assignment& assignment : settings)
+        texts.push_back(assignment.key + "=" + assignment.value);
+    return texts;
+}
+
+std::vector<Assignment> settings_from(const std::vector<std::string>& texts)
+{
+    std::vector<Assignment> settings;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos)
+            throw std::runtime_error("\"" + text + "\" is no setting");
+        settings.push_back({.key = text.substr(0, equals), .value = text.substr(equals + 1)});
+    }
+    return settings;
+}
+
+LoggedCommand command_from(const Json& line)
+{
+    const std::string name = line.at("command");
+    const auto all = names(InputKind{});
+    const auto known = std::find(all.begin(), all.end(), name);
+    if (known == all.end())
+        throw std::runtime_error("unknown command \"" + name + "\"");
+    return {.frame = line.at("frame"),
+            .kind = InputKind(known - all.begin()),
+            .region = line.value("region", ""),
+            .settings = settings_from(line.value("settings", std::vector<std::string>()))};
+}
+
 /// Takes in one line after the header.
 void read_line(const Json& line, InputLog& log)
 {
     if (log.end)
         throw std::runtime_error("nothing may follow the end");
-    if (line.contains("command"))
-        log.commands.push_back({.frame = line.at("frame"), .command = line.at("command")});
-    else
+    if (line.contains("command")) {
+        LoggedCommand command = command_from(line);
+        if (command.frame == 0 || (!log.commands.empty() && command.frame < log.commands.back().frame))
+            throw std::runtime_error("frame " + std::to_string(command.frame) + " is out of order");
+        log.commands.push_back(std::move(command));
+    } else
         log.end = InputLogEnd{.frames = line.at("frames"), .state_hash = hash_from(line.at("state_hash"))};
 }
 
@@ -106,7 +144,12 @@ InputLogWriter::InputLogWriter(const std::filesystem::path& folder, const InputL
 
 void InputLogWriter::record(const LoggedCommand& command)
 {
-    write_line(Json{{"frame", command.frame}, {"command", command.command}}.dump());
+    Json line{{"frame", command.frame}, {"command", names(command.kind)[std::size_t(command.kind)]}};
+    if (!command.region.empty())
+        line["region"] = command.region;
+    if (!command.settings.empty())
+        line["settings"] = texts_of(command.settings);
+    write_line(line.dump());
 }
 
 void InputLogWriter::finish(const InputLogEnd& end)

@@ -1,16 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
+#include "scene/assignments.hpp"
 
 namespace slod {
 
@@ -25,10 +28,22 @@ struct InputLogHeader {
     std::uint64_t initial_hash = 0;    ///< content_hash() of them
 };
 
-/// One command, applied at the start of a frame.
+/// What may change between frames.
+enum class InputKind : std::uint8_t { AddRegion, ChangeRegion, RemoveRegion, ChangeSettings };
+
+constexpr std::array<std::string_view, 4> names(InputKind)
+{
+    return {"add_region", "change_region", "remove_region", "change_settings"};
+}
+
+/// One change, made before a frame.
 struct LoggedCommand {
-    std::uint64_t frame = 0;
-    std::string command;
+    std::uint64_t frame = 0; ///< first that has the change
+    InputKind kind{};
+    std::string region;               ///< name; empty for settings
+    std::vector<Assignment> settings; ///< all fields of the region, or table.key of what was set
+
+    friend bool operator==(const LoggedCommand&, const LoggedCommand&) = default;
 };
 
 /// The outcome; the last line of the log of a run that ended in order.

@@ -67,6 +67,7 @@ std::variant<Job, Problems> load(const std::filesystem::path& scene_file, const 
     return Job{.scene = std::get<Scene>(std::move(scene)),
                .initial = std::get<InitialParticles>(std::move(initial)),
                .origin = std::move(origin),
+               .commands = {},
                .expected = {},
                .frames = line.frames};
 }
@@ -102,9 +103,6 @@ Problems problems(const std::filesystem::path& file, const InputLog& log)
     else if (log.end->frames == 0)
         found.push_back(file.string() +
                         ": the run was stopped before its first frame; there is nothing to repeat");
-    for (const LoggedCommand& command : log.commands)
-        found.push_back(file.string() + ": frame " + std::to_string(command.frame) + ": unknown command \"" +
-                        command.command + "\"");
     return found;
 }
 
@@ -125,6 +123,7 @@ std::variant<Job, Problems> load_replay(const CommandLine& line)
                             ": the particles at the start are not the recorded ones: now " +
                             job->initial.source + ", then " + log.header.initial_source};
         job->origin.version = version();
+        job->commands = log.commands;
         job->expected = log.end;
         job->frames = log.end->frames;
     }

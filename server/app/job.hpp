@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "app/command_line.hpp"
 #include "app/input_log.hpp"
@@ -17,6 +18,7 @@ struct Job {
     Scene scene;
     InitialParticles initial;
     InputLogHeader origin;               ///< what the scene and the particles were made from
+    std::vector<LoggedCommand> commands; ///< of a replay, by frame
     std::optional<InputLogEnd> expected; ///< of a replay
     std::uint64_t frames = 0;            ///< 0: until stopped
 };

@@ -31,6 +31,12 @@ Outputs::Outputs(const CommandLine& line, const InputLogHeader& origin)
         input_log_.emplace(line.output_folder, origin);
 }
 
+void Outputs::record(const LoggedCommand& command)
+{
+    if (input_log_)
+        input_log_->record(command);
+}
+
 void Outputs::write(const Job& job, const Server& server, const RunSummary& summary)
 {
     if (input_log_)

@@ -18,6 +18,9 @@ public:
     /// Throws std::system_error, naming the place.
     Outputs(const CommandLine& line, const InputLogHeader& origin);
 
+    /// Adds a change to the input log, if there is one. Throws std::system_error.
+    void record(const LoggedCommand& command);
+
     /// Throws std::system_error.
     void write(const Job& job, const Server& server, const RunSummary& summary);
 

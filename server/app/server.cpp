@@ -17,6 +17,9 @@ namespace {
 
 using Clock = Pacer::Clock;
 
+/// While the loop waits it looks so often for commands.
+constexpr std::chrono::milliseconds command_period{10};
+
 double milliseconds(Clock::duration duration)
 {
     return std::chrono::duration<double, std::milli>(duration).count();
@@ -36,21 +39,28 @@ Simulation::Options options(const ServerSettings& settings)
 
 } // namespace
 
-Server::Server(const Scene& scene, ParticleSet initial, Pace pace, EachSecond each_second)
-    : pace_(pace), frame_rate_hz_(scene.server.frame_rate),
-      frame_s_(scene.simulation.time.step * scene.simulation.units.time_s),
-      each_second_(std::move(each_second)), threads_(thread_count(scene.server)), team_(threads_)
+Server::Server(Job& job, bool free_run, Listeners listeners)
+    : frames_(job.frames), free_run_(free_run), frame_rate_hz_(job.scene.server.frame_rate),
+      frame_s_(job.scene.simulation.time.step * job.scene.simulation.units.time_s),
+      each_second_(std::move(listeners.each_second)), threads_(thread_count(job.scene.server)),
+      team_(threads_)
 {
-    const std::uint64_t particles = initial.size();
+    const Scene& scene = job.scene;
+    const ParticleSet initial = std::move(job.initial.particles);
     team_.run([&] { simulation_.emplace(scene.simulation, initial, options(scene.server)); });
     if (scene.wire.enabled)
         publisher_.emplace(scene.wire, Publisher::Session{.scene_title = scene.title,
                                                           .units = scene.simulation.units,
                                                           .time_step = scene.simulation.time.step,
-                                                          .particles = particles,
+                                                          .particles = initial.size(),
                                                           .threads = threads_,
                                                           .isa = std::string(simulation_->isa()),
                                                           .version = std::string(version())});
+    steering_.emplace(*simulation_, publisher_ ? &*publisher_ : nullptr,
+                      Steering::Options{.wire = scene.wire,
+                                        .replay = job.commands,
+                                        .replaying = job.expected.has_value(),
+                                        .record = std::move(listeners.record)});
 }
 
 RunSummary Server::run(const std::stop_token& stop)
@@ -62,13 +72,13 @@ RunSummary Server::run(const std::stop_token& stop)
 
     Pacer pacer(frame_rate_hz_, start);
     LoopMeter meter(frame_s_, start);
-    const auto ended = [&] {
-        return stop.stop_requested() || (pace_.frames > 0 && summary.frames == pace_.frames);
-    };
-    while (!ended()) {
-        run_frame(meter, summary);
-        if (!pace_.free_run && !ended())
-            sleep_until(pacer.next(Clock::now()), stop);
+    steering_->prepare(1, team_);
+    while (!ended(summary, stop)) {
+        if (steering_->control().may_run()) {
+            run_frame(meter, summary);
+            steering_->control().count_frame();
+        }
+        wait_for_frame(pacer, summary, stop);
     }
 
     summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
@@ -77,6 +87,27 @@ RunSummary Server::run(const std::stop_token& stop)
     spdlog::info("stopped frames={} time={:.6g} wall_s={:.3f} interrupted={}", summary.frames, summary.time,
                  summary.wall_s, stop.stop_requested());
     return summary;
+}
+
+bool Server::ended(const RunSummary& summary, const std::stop_token& stop) const
+{
+    return stop.stop_requested() || steering_->control().stopped() ||
+           (frames_ > 0 && summary.frames == frames_);
+}
+
+void Server::wait_for_frame(Pacer& pacer, const RunSummary& summary, const std::stop_token& stop)
+{
+    const std::uint64_t next_frame = summary.frames + 1;
+    const Clock::time_point due = free_run_ ? Clock::now() : pacer.next(Clock::now());
+    steering_->prepare(next_frame, team_);
+    while (!ended(summary, stop)) {
+        const Clock::time_point now = Clock::now();
+        const bool runs = steering_->control().may_run();
+        if (runs && now >= due)
+            break;
+        sleep_until(runs ? std::min(due, now + command_period) : now + command_period, stop);
+        steering_->prepare(next_frame, team_);
+    }
 }
 
 void Server::run_frame(LoopMeter& meter, RunSummary& summary)

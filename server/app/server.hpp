@@ -5,46 +5,54 @@
 #include <optional>
 #include <stop_token>
 
+#include "app/job.hpp"
 #include "app/loop_meter.hpp"
 #include "app/publisher.hpp"
 #include "app/run_summary.hpp"
+#include "app/steering.hpp"
 #include "core/parallel.hpp"
-#include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 
 namespace slod {
 
 /// Runs one scene frame by frame. The thread that calls it owns the simulation; the publisher has a thread
-/// of its own and never delays a frame. Members are destroyed bottom-up: publishing stops, then the state
-/// goes.
+/// of its own and never delays a frame. Members are destroyed bottom-up: no more commands are taken,
+/// publishing stops, then the state goes.
 class Server {
 public:
-    /// How long and how fast to run.
-    struct Pace {
-        std::uint64_t frames = 0; ///< 0: until stopped
-        bool free_run = false;    ///< no waiting between frames
-    };
-
     /// Told once a second, between frames, how the run goes.
     using EachSecond = std::function<void(const Snapshot&, const LoopMeans&, const Plan&)>;
 
-    /// Forms the first clusters of `initial` and opens the wire if the scene asks for it. Throws
-    /// std::runtime_error when the wire or the instruction set is not to be had.
-    Server(const Scene& scene, ParticleSet initial, Pace pace, EachSecond each_second);
+    /// Who is told of what.
+    struct Listeners {
+        EachSecond each_second;
+        Steering::Record record{}; ///< may be empty
+    };
 
-    /// Runs to the last frame, or to the end of the frame in which stop is requested.
+    /// Forms the first clusters of the job's particles, which it takes, and opens the wire if the scene asks
+    /// for it. Throws std::runtime_error when the wire or the instruction set is not to be had.
+    Server(Job& job, bool free_run, Listeners listeners);
+
+    /// Runs to the last frame, or to the end of the frame in which stop is requested. Throws
+    /// std::runtime_error when a log cannot be repeated.
     RunSummary run(const std::stop_token& stop);
 
     const Simulation& simulation() const { return *simulation_; }
     int threads() const { return threads_; }
 
 private:
+    /// Takes what came in between frames; then waits for the next one's time, if there is one, taking on.
+    void wait_for_frame(Pacer& pacer, const RunSummary& summary, const std::stop_token& stop);
+
+    bool ended(const RunSummary& summary, const std::stop_token& stop) const;
+
     /// One frame and its publication; adds it to `summary`.
     void run_frame(LoopMeter& meter, RunSummary& summary);
 
     ConservedQuantities measure_conserved();
 
-    Pace pace_;
+    std::uint64_t frames_; ///< to run; 0: until stopped
+    bool free_run_;        ///< no waiting between frames
     double frame_rate_hz_; ///< that the pacer holds
     double frame_s_;       ///< simulated time of a frame, SI
     EachSecond each_second_;
@@ -52,6 +60,7 @@ private:
     ThreadTeam team_;
     std::optional<Simulation> simulation_;
     std::optional<Publisher> publisher_;
+    std::optional<Steering> steering_;
     bool new_second_ = true; ///< the next frame is the first of a second
 };
 

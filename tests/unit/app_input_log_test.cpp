@@ -42,12 +42,17 @@ protected:
                                  .input = "/data/a b.gadget2",
                                  .initial_source = "a file",
                                  .initial_hash = 0x00ff'0000'0000'0001};
+    const LoggedCommand change_{.frame = 3,
+                                .kind = InputKind::ChangeRegion,
+                                .region = "core",
+                                .settings = {{"centre", "[1.0, 2.0, 3.0]"}, {"follows", "\"a=b\""}}};
 };
 
 TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
 {
     InputLogWriter writer(folder_, header_);
-    writer.record({.frame = 7, .command = "pause"});
+    writer.record(change_);
+    writer.record({.frame = 4, .kind = InputKind::RemoveRegion, .region = "core", .settings = {}});
     writer.finish({.frames = 12, .state_hash = 0xfedc'ba98'7654'3210});
 
     const InputLog log = read();
@@ -58,9 +63,10 @@ TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
     EXPECT_EQ(log.header.input, header_.input);
     EXPECT_EQ(log.header.initial_source, header_.initial_source);
     EXPECT_EQ(log.header.initial_hash, header_.initial_hash);
-    ASSERT_EQ(log.commands.size(), 1U);
-    EXPECT_EQ(log.commands[0].frame, 7U);
-    EXPECT_EQ(log.commands[0].command, "pause");
+    ASSERT_EQ(log.commands.size(), 2U);
+    EXPECT_EQ(log.commands[0], change_);
+    EXPECT_EQ(log.commands[1].kind, InputKind::RemoveRegion);
+    EXPECT_EQ(log.commands[1].region, "core");
     ASSERT_TRUE(log.end);
     EXPECT_EQ(log.end->frames, 12U);
     EXPECT_EQ(log.end->state_hash, 0xfedc'ba98'7654'3210);
@@ -70,7 +76,7 @@ TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
 TEST_F(InputLogTest, ALogThatWasCutShortIsReadWithoutAnEnd)
 {
     InputLogWriter writer(folder_, header_);
-    writer.record({.frame = 3, .command = "pause"});
+    writer.record(change_);
     const InputLog log = read();
     EXPECT_EQ(log.commands.size(), 1U);
     EXPECT_FALSE(log.end);
@@ -80,9 +86,11 @@ TEST_F(InputLogTest, ABadLineIsNamedByFileAndNumber)
 {
     for (const char* line :
          {"not json", "{}", R"({"frames":1,"state_hash":"12"})",
-          R"({"frames":1,"state_hash":"xyzxyzxyzxyzxyzx"})", R"({"frame":1,"command":2})"}) {
+          R"({"frames":1,"state_hash":"xyzxyzxyzxyzxyzx"})", R"({"frame":4,"command":2})",
+          R"({"frame":4,"command":"dance"})", R"({"frame":2,"command":"remove_region","region":"a"})",
+          R"({"frame":4,"command":"change_settings","settings":["no value"]})"}) {
         SCOPED_TRACE(line);
-        InputLogWriter(folder_, header_).record({.frame = 3, .command = "pause"});
+        InputLogWriter(folder_, header_).record(change_);
         std::ofstream(file_, std::ios::app) << line << '\n';
         EXPECT_EQ(problem().find(file_.string() + ":3: "), 0U) << problem();
     }
@@ -92,7 +100,7 @@ TEST_F(InputLogTest, NothingMayFollowTheEnd)
 {
     InputLogWriter writer(folder_, header_);
     writer.finish({.frames = 1, .state_hash = 1});
-    writer.record({.frame = 1, .command = "pause"});
+    writer.record(change_);
     EXPECT_EQ(problem().find(file_.string() + ":3: "), 0U) << problem();
 }
 

@@ -1,0 +1,283 @@
+#include "app/command_desk.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "scene/value_text.hpp"
+
+namespace slod {
+
+namespace {
+
+constexpr double longest_lease_s = 1e6;
+
+Answer refusal(wire::ResultCode result, std::string_view field, std::string text)
+{
+    return {.result = result, .field = std::string(field), .text = std::move(text)};
+}
+
+/// The first problem, which starts with the key that is to blame.
+Answer refusal(const Problems& problems)
+{
+    const std::string& first = problems.front();
+    const std::string more =
+        problems.size() > 1 ? " (and " + std::to_string(problems.size() - 1) + " more problems)" : "";
+    return refusal(slod_v1_RESULT_INVALID, first.substr(0, first.find_first_of(" :")), first + more);
+}
+
+/// What a region looks like to a view; none where the view is no view.
+std::optional<RegionOfInterest> following(const RegionOfInterest& region, const ClientView& view)
+{
+    RegionOfInterest moved = region;
+    const Vector3d direction = view.look_at - view.eye;
+    const std::vector<Assignment> fields{
+        {"centre", value_text(view.eye)},
+        {"direction", value_text(direction)},
+        {"up", value_text(view.up)},
+        {"field_of_view", value_text(std::min(view.field_of_view_deg * region.view_share, 179.0))},
+        {"aspect", value_text(view.aspect)}};
+    if (!assign_fields(moved, fields).empty())
+        return {};
+    return moved;
+}
+
+} // namespace
+
+struct CommandDesk::Kind {
+    std::string_view name;
+    Answer (CommandDesk::*decide)(const Request& request);
+    bool changes_outcome;
+};
+
+const std::array<CommandDesk::Kind, 12> CommandDesk::kinds{{
+    {"pause", &CommandDesk::pause, false},
+    {"resume", &CommandDesk::resume, false},
+    {"step", &CommandDesk::step, false},
+    {"stop", &CommandDesk::stop, false},
+    {"keep_alive", &CommandDesk::keep_alive, false},
+    {"set", &CommandDesk::set, true},
+    {"add_roi", &CommandDesk::add_roi, true},
+    {"move_roi", &CommandDesk::move_roi, true},
+    {"resize_roi", &CommandDesk::resize_roi, true},
+    {"set_roi", &CommandDesk::set_roi, true},
+    {"remove_roi", &CommandDesk::remove_roi, true},
+    {"checkpoint", &CommandDesk::checkpoint, false},
+}};
+
+Answer CommandDesk::handle(const Request& request, std::uint64_t frame, Clock::time_point now)
+{
+    frame_ = frame;
+    now_ = now;
+    leases_.renew(request.client, now);
+    if (const Answer* const before = memory_.find(request.client, request.number))
+        return *before;
+    const bool too_old = memory_.too_old(request.client, request.number);
+    Answer answer = too_old ? refusal(slod_v1_RESULT_LIMIT_REACHED, "request",
+                                      "The request is older than the last 64 of its client, whose answers "
+                                      "are remembered; ask anew.")
+                            : decide(request);
+    answer.client = request.client;
+    answer.number = request.number;
+    if (!too_old)
+        memory_.remember(answer);
+    return answer;
+}
+
+Answer CommandDesk::decide(const Request& request)
+{
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& each) { return each.name == request.kind; });
+    if (kind == kinds.end())
+        return refusal(slod_v1_RESULT_UNSUPPORTED, "kind", "This server knows no such command.");
+    if (read_only_ && kind->changes_outcome)
+        return refusal(slod_v1_RESULT_NOT_PERMITTED, "kind",
+                       "The server repeats a recorded run, which nothing may change; start another.");
+    return (this->*kind->decide)(request);
+}
+
+Answer CommandDesk::applied(const Request& request) const
+{
+    const RegionRecord* const record = editor_.find(request.region);
+    return {.applied_frame = frame_, .revision = record ? record->revision : 0};
+}
+
+Answer CommandDesk::pause(const Request& request)
+{
+    control_.pause();
+    return applied(request);
+}
+
+Answer CommandDesk::resume(const Request& request)
+{
+    control_.resume();
+    return applied(request);
+}
+
+Answer CommandDesk::step(const Request& request)
+{
+    if (!control_.paused())
+        return refusal(slod_v1_RESULT_NOT_PERMITTED, "kind", "The simulation runs; pause it to step.");
+    if (request.frames == 0)
+        return refusal(slod_v1_RESULT_INVALID, "frames", "There are no 0 frames to step; use 1 or more.");
+    control_.step(request.frames);
+    return applied(request);
+}
+
+Answer CommandDesk::stop(const Request& request)
+{
+    control_.stop();
+    return applied(request);
+}
+
+Answer CommandDesk::keep_alive(const Request& request)
+{
+    return applied(request);
+}
+
+Answer CommandDesk::checkpoint(const Request&)
+{
+    return refusal(slod_v1_RESULT_UNSUPPORTED, "kind", "This server writes no checkpoints.");
+}
+
+Answer CommandDesk::set(const Request& request)
+{
+    if (request.settings.empty())
+        return refusal(slod_v1_RESULT_INVALID, "settings", "Nothing is set; name a table.key and a value.");
+    if (const Problems found = editor_.set(request.settings, frame_); !found.empty())
+        return refusal(found);
+    return applied(request);
+}
+
+Answer CommandDesk::add_roi(const Request& request)
+{
+    if (!is_name(request.region))
+        return refusal(slod_v1_RESULT_INVALID, "region",
+                       "This is no name; use 1 to 32 of a-z, 0-9, _ and -.");
+    if (editor_.find(request.region))
+        return refusal(slod_v1_RESULT_REGION_EXISTS, "region",
+                       "There is a region " + request.region +
+                           " already; choose another name, or change it.");
+    if (editor_.region_count() > max_regions)
+        return refusal(slod_v1_RESULT_LIMIT_REACHED, "region",
+                       "There are " + std::to_string(max_regions) + " regions already; remove one first.");
+    if (!(request.lease_s >= 0 && request.lease_s <= longest_lease_s))
+        return refusal(slod_v1_RESULT_INVALID, "lease_s", "lease_s is out of range; use 0 to 1000000.");
+
+    RegionOfInterest region;
+    region.name = request.region;
+    std::vector<Assignment> fields{{"centre", value_text(request.centre)},
+                                   {"half_extent", value_text(request.half_extent)},
+                                   {"radius", value_text(request.radius)}};
+    fields.insert(fields.end(), request.settings.begin(), request.settings.end());
+    Problems found = assign_fields(region, fields);
+    if (found.empty() && region.name != request.region)
+        found.push_back("name is the command's region; leave it out of the settings.");
+    const bool leased = request.lease_s > 0;
+    if (found.empty())
+        found = editor_.add(region, leased ? request.client : wire::Uuid{}, request.lease_s, frame_);
+    if (!found.empty())
+        return refusal(found);
+    if (leased)
+        leases_.grant(region.name, request.client, request.lease_s, now_);
+    return applied(request);
+}
+
+std::optional<Answer> CommandDesk::objection(const Request& request) const
+{
+    const RegionRecord* const record = editor_.find(request.region);
+    if (!record)
+        return refusal(slod_v1_RESULT_UNKNOWN_REGION, "region",
+                       "There is no such region; list them to see their names.");
+    if (record->owner != wire::Uuid{} && record->owner != request.client)
+        return refusal(slod_v1_RESULT_NOT_OWNER, "region",
+                       "The region is client " + wire::to_string(record->owner) + "'s own; add another.");
+    if (request.if_revision != 0 && request.if_revision != record->revision)
+        return refusal(slod_v1_RESULT_STALE_REVISION, "if_revision",
+                       "The region is at revision " + std::to_string(record->revision) +
+                           ": somebody else changed it; look at it again.");
+    return {};
+}
+
+Answer CommandDesk::change(const Request& request, const std::vector<Assignment>& settings)
+{
+    RegionOfInterest wanted = editor_.find(request.region)->settings;
+    Problems found = assign_fields(wanted, settings);
+    if (found.empty() && wanted.name != request.region)
+        found.push_back("name cannot change; remove the region and add another.");
+    if (found.empty())
+        found = editor_.change(wanted, frame_);
+    return found.empty() ? applied(request) : refusal(found);
+}
+
+Answer CommandDesk::move_roi(const Request& request)
+{
+    if (auto answer = objection(request))
+        return *answer;
+    if (editor_.find(request.region)->settings.shape == Shape::Everywhere)
+        return refusal(slod_v1_RESULT_INVALID, "region", "The region is everywhere; set its shape first.");
+    return change(request, {{"centre", value_text(request.centre)}});
+}
+
+Answer CommandDesk::resize_roi(const Request& request)
+{
+    if (auto answer = objection(request))
+        return *answer;
+    switch (editor_.find(request.region)->settings.shape) {
+    case Shape::Box:
+        return change(request, {{"half_extent", value_text(request.half_extent)}});
+    case Shape::Sphere:
+        return change(request, {{"radius", value_text(request.radius)}});
+    case Shape::Everywhere:
+    case Shape::Frustum:
+        break;
+    }
+    return refusal(slod_v1_RESULT_INVALID, "region",
+                   "Only a box or a sphere can be resized; set the region's shape, or its settings.");
+}
+
+Answer CommandDesk::set_roi(const Request& request)
+{
+    if (auto answer = objection(request))
+        return *answer;
+    if (request.settings.empty())
+        return refusal(slod_v1_RESULT_INVALID, "settings", "Nothing is set; name a setting and a value.");
+    return change(request, request.settings);
+}
+
+Answer CommandDesk::remove_roi(const Request& request)
+{
+    if (request.region == background_name)
+        return refusal(slod_v1_RESULT_NOT_PERMITTED, "region",
+                       "The background cannot go: it holds whatever no other region does.");
+    if (auto answer = objection(request))
+        return *answer;
+    const Problems found = editor_.remove(request.region, frame_);
+    leases_.end(request.region);
+    return found.empty() ? applied(request) : refusal(found);
+}
+
+void CommandDesk::follow(const ClientView& view, std::uint64_t frame, Clock::time_point now)
+{
+    leases_.renew(view.client, now);
+    if (read_only_ || view.client_name.empty())
+        return;
+    std::vector<RegionOfInterest> moved;
+    for (const auto& [name, record] : editor_.records())
+        if (record.settings.shape == Shape::Frustum && record.settings.follows == view.client_name)
+            if (auto region = following(record.settings, view); region && problems(*region).empty())
+                moved.push_back(*std::move(region));
+    for (const RegionOfInterest& region : moved)
+        static_cast<void>(editor_.change(region, frame)); // what else could be wrong was so before
+}
+
+void CommandDesk::expire_leases(std::uint64_t frame, Clock::time_point now)
+{
+    for (const std::string& region : leases_.overdue(now)) {
+        static_cast<void>(editor_.remove(region, frame)); // leased regions are there
+        leases_.end(region);
+    }
+}
+
+} // namespace slod

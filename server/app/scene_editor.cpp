@@ -1,0 +1,155 @@
+#include "app/scene_editor.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace slod {
+
+namespace {
+
+constexpr std::string_view background_table = "background.";
+
+bool of_background(const Assignment& assignment)
+{
+    return assignment.key.starts_with(background_table);
+}
+
+} // namespace
+
+SceneEditor::SceneEditor(Simulation& simulation) : simulation_(simulation)
+{
+    for (const Simulation::Region& region : simulation.regions()) {
+        const RegionRecord record{.row = region.row, .settings = region.settings, .revision = ++revisions_};
+        records_[region.settings.name] = record;
+        tell(record);
+    }
+}
+
+const RegionRecord* SceneEditor::find(std::string_view name) const
+{
+    const auto found = records_.find(name);
+    return found != records_.end() ? &found->second : nullptr;
+}
+
+Problems SceneEditor::add(const RegionOfInterest& region, const wire::Uuid& owner, double lease_s,
+                          std::uint64_t frame)
+{
+    if (Problems found = simulation_.add_region(region); !found.empty())
+        return found;
+    const std::vector<Simulation::Region> all = simulation_.regions();
+    const auto added = std::find_if(all.begin(), all.end(), [&](const Simulation::Region& each) {
+        return each.settings.name == region.name;
+    });
+    const RegionRecord record{.row = added->row,
+                              .settings = region,
+                              .revision = ++revisions_,
+                              .owner = owner,
+                              .lease_s = lease_s,
+                              .frame = frame};
+    records_[region.name] = record;
+    tell(record);
+    log_.push_back(
+        {.frame = frame, .kind = InputKind::AddRegion, .region = region.name, .settings = fields_of(region)});
+    return {};
+}
+
+Problems SceneEditor::change(const RegionOfInterest& region, std::uint64_t frame)
+{
+    RegionRecord& record = records_.at(region.name);
+    if (record.settings == region)
+        return {};
+    if (Problems found = simulation_.change_region(region); !found.empty())
+        return found;
+    record.settings = region;
+    record.revision = ++revisions_;
+    record.frame = frame;
+    tell(record);
+    log_.push_back({.frame = frame,
+                    .kind = InputKind::ChangeRegion,
+                    .region = region.name,
+                    .settings = fields_of(region)});
+    return {};
+}
+
+Problems SceneEditor::remove(const std::string& name, std::uint64_t frame)
+{
+    if (Problems found = simulation_.remove_region(name); !found.empty())
+        return found;
+    RegionRecord record = std::move(records_.extract(name).mapped());
+    record.revision = ++revisions_;
+    record.frame = frame;
+    record.removed = true;
+    tell(record);
+    log_.push_back({.frame = frame, .kind = InputKind::RemoveRegion, .region = name, .settings = {}});
+    return {};
+}
+
+Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t frame)
+{
+    const auto others = std::find_if_not(settings.begin(), settings.end(), of_background);
+    if (others == settings.end())
+        return set_background(settings, frame);
+    if (const auto own = std::find_if(settings.begin(), settings.end(), of_background); own != settings.end())
+        return {own->key + " is set by itself; give " + others->key + " in a command of its own."};
+
+    SimulationSettings wanted = simulation_.settings();
+    if (Problems found = assign_fields(wanted, settings); !found.empty())
+        return found;
+    if (Problems found = simulation_.change_settings(wanted); !found.empty())
+        return found;
+    log_.push_back({.frame = frame, .kind = InputKind::ChangeSettings, .region = {}, .settings = settings});
+    return {};
+}
+
+Problems SceneEditor::set_background(const std::vector<Assignment>& settings, std::uint64_t frame)
+{
+    std::vector<Assignment> own = settings;
+    for (Assignment& assignment : own)
+        assignment.key.erase(0, background_table.size());
+    RegionOfInterest wanted = records_.find(background_name)->second.settings;
+    Problems found = assign_fields(wanted, own);
+    if (found.empty() && wanted.name != background_name)
+        found.push_back("name cannot change.");
+    if (found.empty())
+        found = change(wanted, frame);
+    for (std::string& problem : found)
+        problem.insert(0, background_table);
+    return found;
+}
+
+Problems SceneEditor::repeat(const LoggedCommand& command)
+{
+    const RegionRecord* const present = find(command.region);
+    switch (command.kind) {
+    case InputKind::AddRegion: {
+        RegionOfInterest region;
+        Problems found = assign_fields(region, command.settings);
+        return found.empty() ? add(region, {}, 0, command.frame) : found;
+    }
+    case InputKind::ChangeRegion: {
+        if (!present)
+            break;
+        RegionOfInterest region = present->settings;
+        Problems found = assign_fields(region, command.settings);
+        return found.empty() ? change(region, command.frame) : found;
+    }
+    case InputKind::RemoveRegion:
+        if (!present)
+            break;
+        return remove(command.region, command.frame);
+    case InputKind::ChangeSettings:
+        return set(command.settings, command.frame);
+    }
+    return {"region = \"" + command.region + "\" is not there."};
+}
+
+std::vector<RegionRecord> SceneEditor::take_news()
+{
+    std::vector<RegionRecord> news;
+    for (auto& [name, record] : news_)
+        news.push_back(std::move(record));
+    news_.clear();
+    return news;
+}
+
+} // namespace slod

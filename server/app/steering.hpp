@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "app/command_desk.hpp"
+#include "app/command_inbox.hpp"
+#include "app/publisher.hpp"
+#include "core/parallel.hpp"
+#include "scene/server_settings.hpp"
+
+namespace slod {
+
+/// What happens to the simulation between frames: commands and views come in, a log is repeated, answers and
+/// news go out. Belongs to the simulation's thread.
+class Steering {
+public:
+    /// Told of every change, for the input log.
+    using Record = std::function<void(const LoggedCommand&)>;
+
+    struct Options {
+        const WireSettings& wire;
+        std::vector<LoggedCommand> replay; ///< of a log, by frame
+        bool replaying = false;            ///< clients may change nothing
+        Record record;                     ///< may be empty
+    };
+
+    /// `publisher` may be null: nobody commands. Both must outlive the steering. Throws wire::DdsError.
+    Steering(Simulation& simulation, Publisher* publisher, Options options);
+
+    /// Makes the changes that `frame`, the next to run, is to have. `team` runs what is parallel in them.
+    void prepare(std::uint64_t frame, ThreadTeam& team);
+
+    RunControl& control() { return desk_.control(); }
+    const RunControl& control() const { return desk_.control(); }
+
+private:
+    void repeat_log(std::uint64_t frame);
+    void take_commands(std::uint64_t frame);
+    void tell();
+
+    Publisher* publisher_;
+    std::size_t max_commands_;
+    std::vector<LoggedCommand> replay_;
+    std::size_t repeated_ = 0; ///< of the log's commands
+    Record record_;
+    CommandDesk desk_;
+    std::optional<CommandInbox> inbox_;
+    std::vector<Answer> answers_;
+};
+
+} // namespace slod

@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include "app/answer_memory.hpp"
+
+namespace slod {
+namespace {
+
+constexpr wire::Uuid alice{1}, bob{2}, carol{3};
+constexpr std::uint64_t kept = AnswerMemory::answers_per_client;
+
+Answer answer(const wire::Uuid& client, std::uint64_t number)
+{
+    return {.client = client, .number = number, .applied_frame = 100 + number};
+}
+
+TEST(AnswerMemory, AnAnswerIsFoundByClientAndNumber)
+{
+    AnswerMemory memory(4);
+    memory.remember(answer(alice, 1));
+    ASSERT_TRUE(memory.find(alice, 1));
+    EXPECT_EQ(memory.find(alice, 1)->applied_frame, 101U);
+    EXPECT_FALSE(memory.find(alice, 2));
+    EXPECT_FALSE(memory.find(bob, 1));
+}
+
+TEST(AnswerMemory, TheLast64OfAClientAreKept)
+{
+    AnswerMemory memory(4);
+    for (std::uint64_t number = 1; number <= kept + 1; ++number)
+        memory.remember(answer(alice, number));
+    EXPECT_FALSE(memory.find(alice, 1));
+    EXPECT_TRUE(memory.too_old(alice, 1));
+    EXPECT_TRUE(memory.find(alice, 2));
+    EXPECT_FALSE(memory.too_old(alice, 2));
+    EXPECT_FALSE(memory.too_old(bob, 1));
+}
+
+// A request that was overtaken by later ones on its way is new, not old.
+TEST(AnswerMemory, ALateRequestIsNotTooOldWhileNothingIsForgotten)
+{
+    AnswerMemory memory(4);
+    for (std::uint64_t number = 2; number <= kept; ++number)
+        memory.remember(answer(alice, number));
+    EXPECT_FALSE(memory.too_old(alice, 1));
+    EXPECT_FALSE(memory.find(alice, 1));
+}
+
+TEST(AnswerMemory, WhoWasSilentLongestIsForgottenWhenThereAreTooManyClients)
+{
+    AnswerMemory memory(2);
+    memory.remember(answer(alice, 1));
+    memory.remember(answer(bob, 1));
+    memory.remember(answer(alice, 2));
+    memory.remember(answer(carol, 1));
+    EXPECT_TRUE(memory.find(alice, 1));
+    EXPECT_FALSE(memory.find(bob, 1));
+    EXPECT_TRUE(memory.find(carol, 1));
+}
+
+} // namespace
+} // namespace slod
