@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/commander.hpp"
 #include "idl/profile.hpp"
 
 namespace slod::ctl {
@@ -32,6 +33,7 @@ struct CommandLine {
     bool clusters = false;          ///< watch: receive the cluster states too
     bool best_effort = false;       ///< watch: do not ask again for lost fragments of them
     std::vector<std::string> names; ///< stats: values to print; empty: all
+    client::CommandRequest request; ///< of what steers; roi list and show: without a kind
 };
 
 /// Reads the command line. When it is wrong, or asks for --help or --version alone, has already printed what

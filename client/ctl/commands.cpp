@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "ctl/declarations.hpp"
+
 namespace slod::ctl {
 
 namespace {
@@ -33,6 +35,13 @@ constexpr std::array all_commands{
                  declare_watch, run_watch},
     CommandEntry{"stats", "Print the statistics of one frame: times by phase, counts, conserved quantities.",
                  declare_stats, run_stats},
+    CommandEntry{"roi", "List, show, add, move, resize, set and remove regions of interest.", declare_roi,
+                 run_roi},
+    CommandEntry{"pause", "Stop the passage of scene time.", declare_simple, run_steering},
+    CommandEntry{"resume", "Let it go on.", declare_simple, run_steering},
+    CommandEntry{"step", "Run some frames while paused.", declare_step, run_steering},
+    CommandEntry{"set", "Change settings of the running scene.", declare_set, run_steering},
+    CommandEntry{"stop", "End the server in order.", declare_simple, run_steering},
 };
 
 } // namespace

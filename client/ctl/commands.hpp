@@ -25,6 +25,10 @@ std::span<const CommandEntry> commands();
 
 ExitCode run_status(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_watch(const CommandLine& line, const std::stop_token& stop);
+ExitCode run_roi(const CommandLine& line, const std::stop_token& stop);
+
+/// Sends the request and waits for its answer, which it prints.
+ExitCode run_steering(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
 
 } // namespace slod::ctl

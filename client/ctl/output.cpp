@@ -1,6 +1,7 @@
 #include "ctl/output.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -20,9 +21,19 @@ Json json_of(const client::Conserved& conserved)
 
 Json json_of(const wire::PublisherCounts& counts)
 {
-    return {{"offered_frames", counts.offered_frames},   {"published_frames", counts.published_frames},
-            {"skipped_frames", counts.skipped_frames},   {"refused_samples", counts.refused_samples},
-            {"published_bytes", counts.published_bytes}, {"encode_ms", counts.encode_ms}};
+    return {{"offered_frames", counts.offered_frames},
+            {"published_frames", counts.published_frames},
+            {"skipped_frames", counts.skipped_frames},
+            {"refused_samples", counts.refused_samples},
+            {"published_bytes", counts.published_bytes},
+            {"delayed_frames", counts.delayed_frames},
+            {"encode_ms", counts.encode_ms}};
+}
+
+/// JSON has no infinity: "inf" stands for it.
+Json number(double value)
+{
+    return std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value);
 }
 
 /// A number with six digits, which is what one reads; everything else as JSON has it, without quotes.
@@ -76,6 +87,7 @@ Json json_of(const client::ServerInfo& server)
         {"frame_rate_hz", server.frame_rate_hz},
         {"real_time_factor", server.real_time_factor},
         {"particles", server.particles},
+        {"regions", server.regions},
         {"time_step", server.time_step},
         {"units", {{"length_m", server.length_m}, {"mass_kg", server.mass_kg}, {"time_s", server.time_s}}},
         {"version", server.version},
@@ -120,6 +132,34 @@ Json json_of(const client::StreamMeter::Report& traffic)
             {"latency_p99_ms", traffic.latency_p99_ms}};
 }
 
+Json json_of(const client::RegionInfo& region)
+{
+    Json json = {{"region", region.region},
+                 {"revision", region.revision},
+                 {"partition", region.partition},
+                 {"shape", region.shape},
+                 {"centre", region.centre},
+                 {"half_extent", region.half_extent},
+                 {"radius", region.radius},
+                 {"direction", region.direction},
+                 {"up", region.up},
+                 {"field_of_view_deg", region.field_of_view_deg},
+                 {"aspect", region.aspect},
+                 {"near_distance", region.near_distance},
+                 {"far_distance", number(region.far_distance)},
+                 {"follows", region.follows},
+                 {"precedence", region.precedence},
+                 {"max_cluster_size", region.max_cluster_size},
+                 {"max_breadth", number(region.max_breadth)}};
+    for (const auto& [name, value] : region.settings)
+        json["settings"][name] = value;
+    json["owner"] = region.owner == wire::Uuid{} ? "" : wire::to_string(region.owner);
+    json["lease_s"] = region.lease_s;
+    json["clusters"] = region.clusters;
+    json["particles"] = region.particles;
+    return json;
+}
+
 void print(const Json& object, bool as_json)
 {
     if (as_json) {
@@ -133,6 +173,11 @@ void print(const Json& object, bool as_json)
             std::printf("%-*s  %s\n", int(width), name.c_str(), value.c_str());
     }
     std::fflush(stdout);
+}
+
+void print_line(const std::string& line)
+{
+    std::puts(line.c_str());
 }
 
 std::string one_line(const Json& object)

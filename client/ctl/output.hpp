@@ -15,10 +15,14 @@ using Json = nlohmann::ordered_json; ///< keeps the order below, which is the or
 Json json_of(const client::Status& status);
 Json json_of(const client::ServerInfo& server);
 Json json_of(const client::ServerStats& stats);
+Json json_of(const client::RegionInfo& region);
 Json json_of(const client::StreamMeter::Report& traffic);
 
 /// Prints a JSON object, or its fields with dotted names one per line, to stdout and flushes it.
 void print(const Json& object, bool as_json);
+
+/// Prints one line to stdout.
+void print_line(const std::string& line);
 
 /// One line, "a=1 b.c=2".
 std::string one_line(const Json& object);

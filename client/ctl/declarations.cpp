@@ -1,0 +1,166 @@
+#include "ctl/declarations.hpp"
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace slod::ctl {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+using client::CommandRequest;
+
+/// "x,y,z", or one number for all three.
+std::optional<Vector> vector_of(const std::string& text)
+{
+    std::vector<double> numbers;
+    const char* place = text.data();
+    const char* const end = place + text.size();
+    for (bool more = true; more;) {
+        const auto [next, error] = std::from_chars(place, end, numbers.emplace_back());
+        if (error != std::errc() || numbers.size() > 3)
+            return {};
+        more = next != end && *next == ',';
+        if (next != end && !more)
+            return {};
+        place = next + (more ? 1 : 0);
+    }
+    if (numbers.size() == 1)
+        return Vector{numbers[0], numbers[0], numbers[0]};
+    return numbers.size() == 3 ? std::optional(Vector{numbers[0], numbers[1], numbers[2]}) : std::nullopt;
+}
+
+CLI::Option* add_vector(CLI::App& app, const std::string& name, Vector& target, const std::string& help)
+{
+    const auto take = [name, &target](const std::string& text) {
+        const auto vector = vector_of(text);
+        if (!vector)
+            throw CLI::ValidationError(name, text + " is no place or size; write x,y,z");
+        target = *vector;
+    };
+    return app.add_option_function<std::string>(name, take, help)->option_text("X,Y,Z");
+}
+
+CLI::Option* add_settings(CLI::App& app, const std::string& name, CommandRequest& request,
+                          const std::string& help)
+{
+    const auto take = [name, &request](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+            const std::size_t equals = text.find('=');
+            if (equals == std::string::npos || equals == 0)
+                throw CLI::ValidationError(name, text + " is no setting; write key=value");
+            request.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+        }
+    };
+    return app.add_option_function<std::vector<std::string>>(name, take, help);
+}
+
+CLI::Option* add_radius(CLI::App& app, CommandRequest& request)
+{
+    return app.add_option("--radius", request.radius, "Radius of a sphere")->option_text("R");
+}
+
+CLI::App* action(CLI::App& app, CommandLine& line, const std::string& name, const std::string& help,
+                 const std::string& kind)
+{
+    CLI::App* const sub = app.add_subcommand(name, help);
+    sub->callback([&line, kind] { line.request.kind = kind; });
+    return sub;
+}
+
+/// An action on one region.
+CLI::App* region_action(CLI::App& app, CommandLine& line, const std::string& name, const std::string& help,
+                        const std::string& kind)
+{
+    CLI::App* const sub = action(app, line, name, help, kind);
+    sub->add_option("NAME", line.request.region, "Name of the region")->required();
+    return sub;
+}
+
+/// An action on a region that is there.
+CLI::App* change_action(CLI::App& app, CommandLine& line, const std::string& name, const std::string& help,
+                        const std::string& kind)
+{
+    CLI::App* const sub = region_action(app, line, name, help, kind);
+    sub->add_option("--if-revision", line.request.if_revision,
+                    "Refuse unless the region is at this revision: nobody else changed it")
+        ->check(CLI::PositiveNumber)
+        ->option_text("N");
+    return sub;
+}
+
+void declare_add(CLI::App& app, CommandLine& line)
+{
+    CommandRequest& request = line.request;
+    CLI::App& add = *region_action(app, line, "add", "Add a region.", "add_roi");
+    add_vector(add, "--centre", request.centre, "Centre of a box or a sphere, the eye of a frustum");
+    CLI::Option* const half_extent =
+        add_vector(add, "--half-extent", request.half_extent, "Half the sides of a box, which it makes it");
+    CLI::Option* const radius = add_radius(add, request)->excludes(half_extent);
+    add_settings(add, "--set", request, "A setting as in [[region]] of a scene, KEY=VALUE; may be repeated")
+        ->type_size(1)
+        ->allow_extra_args(false);
+    add.add_option("--lease", request.lease_s,
+                   "Remove it after so many seconds: nobody can renew it from here")
+        ->check(CLI::Range(0.0, 1e6))
+        ->option_text("SECONDS");
+    add.callback([&request, half_extent, radius] {
+        request.kind = "add_roi";
+        if (half_extent->count() > 0)
+            request.settings.insert(request.settings.begin(), {"shape", "box"});
+        if (radius->count() > 0)
+            request.settings.insert(request.settings.begin(), {"shape", "sphere"});
+    });
+}
+
+} // namespace
+
+void declare_simple(CLI::App& app, CommandLine& line)
+{
+    app.parse_complete_callback([&app, &line] { line.request.kind = app.get_name(); });
+}
+
+void declare_step(CLI::App& app, CommandLine& line)
+{
+    line.request.frames = 1;
+    app.add_option("N", line.request.frames, "Frames to run [1]")->check(CLI::PositiveNumber);
+    declare_simple(app, line);
+}
+
+void declare_set(CLI::App& app, CommandLine& line)
+{
+    add_settings(
+        app, "SETTING", line.request,
+        "table.key=value as in a scene file, of what may change while it runs: gravity, uniform_gravity, "
+        "uniform_wind, background")
+        ->required();
+    declare_simple(app, line);
+}
+
+void declare_roi(CLI::App& app, CommandLine& line)
+{
+    CommandRequest& request = line.request;
+    app.require_subcommand(1);
+    action(app, line, "list", "Print all regions, one line each.", "");
+    region_action(app, line, "show", "Print one region.", "");
+    declare_add(app, line);
+    CLI::App* const move = change_action(app, line, "move", "Give a region another centre.", "move_roi");
+    add_vector(*move, "--centre", request.centre, "Its new centre, or eye")->required();
+    CLI::App* const resize =
+        change_action(app, line, "resize", "Give a box or a sphere another size.", "resize_roi");
+    CLI::App* const size = resize->add_option_group("size");
+    add_vector(*size, "--half-extent", request.half_extent, "Half the sides of a box");
+    add_radius(*size, request);
+    size->require_option(1);
+    CLI::App* const set = change_action(app, line, "set", "Change settings of a region.", "set_roi");
+    add_settings(*set, "SETTING", request, "key=value as in [[region]] of a scene file")->required();
+    change_action(app, line, "remove", "Remove a region; its clusters go to the others.", "remove_roi");
+}
+
+} // namespace slod::ctl

@@ -1,0 +1,73 @@
+#include "ctl/commands.hpp"
+#include "ctl/waiting.hpp"
+
+namespace slod::ctl {
+
+namespace {
+
+ExitCode code_of(wire::ResultCode result)
+{
+    switch (result) {
+    case slod_v1_RESULT_APPLIED:
+        return ExitCode::Success;
+    case slod_v1_RESULT_UNKNOWN_REGION:
+        return ExitCode::NotFound;
+    case slod_v1_RESULT_NOT_OWNER:
+    case slod_v1_RESULT_NOT_PERMITTED:
+        return ExitCode::NotPermitted;
+    case slod_v1_RESULT_FAILED:
+        return ExitCode::Failure;
+    default:
+        return ExitCode::InvalidArgument;
+    }
+}
+
+ExitCode show(const client::CommandAnswer& answer, bool as_json)
+{
+    if (!answer.applied())
+        complain(answer.text);
+    if (answer.applied() || as_json) {
+        Json json{{"result", client::word_of(answer.result)}};
+        if (answer.applied())
+            json["applied_frame"] = answer.applied_frame;
+        if (answer.revision > 0)
+            json["revision"] = answer.revision;
+        if (!answer.applied()) {
+            json["field"] = answer.field;
+            json["text"] = answer.text;
+        }
+        print(json, as_json);
+    }
+    return code_of(answer.result);
+}
+
+} // namespace
+
+ExitCode run_steering(const CommandLine& line, const std::stop_token& stop)
+{
+    if (const std::string wrong = problem(line.request); !wrong.empty()) {
+        complain(wrong);
+        return ExitCode::InvalidArgument;
+    }
+    client::Connection connection(line.domain, line.profile, {});
+    client::Commander commander(connection.participant());
+    const client::Clock::time_point end = deadline(line);
+    if (!wait_for_server(connection, stop, end))
+        return ExitCode::NoServer;
+    const std::uint64_t number = commander.send(line.request, connection.server()->session);
+    for (;;) {
+        if (const auto answer = commander.take_answer(number))
+            return show(*answer, line.json);
+        const client::Clock::time_point now = client::Clock::now();
+        if (now >= end || stop.stop_requested())
+            break;
+        commander.wait(stop, end - now);
+    }
+    complain(commander.connected()
+                 ? "the server has not answered in time; wait longer with --timeout"
+                 : "the server takes no commands, or could not be reached in time; start it with "
+                   "wire.commands = true, or wait longer with --timeout");
+    return ExitCode::TimedOut;
+}
+
+} // namespace slod::ctl
