@@ -1,0 +1,305 @@
+#include "e2e/command_fixture.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <signal.h>
+
+#include "idl/dds.hpp"
+
+// Commands from end to end: the real server and slodctl, over loopback.
+namespace slod {
+namespace {
+
+using namespace std::chrono_literals;
+using client::CommandRequest;
+using ctl::ExitCode;
+using nlohmann::json;
+using test::Child;
+
+class Commands : public CommandTest {};
+
+/// Particles of a region in a frame; none where the frame does not list it.
+std::optional<std::uint64_t> particles_in(const client::ClusterFrame& frame, const std::string& region)
+{
+    for (const client::RegionClusters& each : frame.regions)
+        if (each.region == region) {
+            std::uint64_t sum = 0;
+            for (const std::uint32_t count : each.particles)
+                sum += count;
+            return sum;
+        }
+    return {};
+}
+
+// Frame by frame: a region about everything takes all stars, far away it has none, grown it has them again,
+// removed it leaves them to the background, each from the very frame that the reply names.
+TEST_F(Commands, ARegionHasItsStateAndItsMembersFromTheFrameThatTheReplyNames)
+{
+    Child running(server());
+    client::Connection connection = connect({.clusters = true, .regions = true});
+    ASSERT_TRUE(sees(connection, [&] { return connection.frame() && connection.knows_all_regions(); }))
+        << running.errors();
+    ASSERT_EQ(control({"pause"}), 0);
+    ASSERT_TRUE(sees(connection, [&] {
+        return connection.server()->paused && connection.frame()->frame == connection.server()->frame;
+    }));
+    const std::uint64_t all = *particles_in(*connection.frame(), "background");
+    EXPECT_EQ(all, 2000U);
+
+    const auto expect = [&](CommandTest::Words words, std::optional<std::uint64_t> members,
+                            double half_extent) {
+        SCOPED_TRACE(words[1]);
+        const std::uint64_t before = connection.frame()->frame;
+        words.insert(words.begin(), "roi");
+        ASSERT_EQ(control(words), 0) << answer;
+        const std::uint64_t applied = answer.at("applied_frame");
+        EXPECT_EQ(applied, before + 1);
+        if (members) {
+            const std::uint64_t revision = answer.at("revision");
+            EXPECT_TRUE(sees(connection, [&] {
+                const auto region = connection.regions().find("all");
+                return region != connection.regions().end() && region->second.revision == revision;
+            }));
+            EXPECT_EQ(connection.regions().at("all").half_extent[0], half_extent);
+        } else {
+            EXPECT_TRUE(sees(connection, [&] { return !connection.regions().contains("all"); }));
+        }
+        ASSERT_EQ(control({"step"}), 0);
+        ASSERT_TRUE(sees(connection, [&] { return connection.frame()->frame == applied; }));
+        EXPECT_EQ(particles_in(*connection.frame(), "all"), members);
+        EXPECT_EQ(particles_in(*connection.frame(), "background"), all - members.value_or(0));
+    };
+    expect({"add", "all", "--centre", "0,0,0", "--half-extent", "1e6", "--set", "max_cluster_size=16"}, all,
+           1e6);
+    expect({"move", "all", "--centre", "-1e7,0,0"}, 0, 1e6);
+    expect({"resize", "all", "--half-extent", "2e7,2e7,2e7"}, all, 2e7);
+    expect({"remove", "all"}, std::nullopt, 0);
+    EXPECT_EQ(control({"stop"}), 0);
+    EXPECT_EQ(running.wait(), 0);
+    EXPECT_EQ(replay(), 0);
+}
+
+TEST_F(Commands, ALateClientSeesEveryRegion)
+{
+    Child running(server());
+    constexpr int count = 200;
+    {
+        client::Connection connection = connect({});
+        client::Commander commander(connection.participant());
+        for (int i = 0; i < count; ++i) {
+            const std::uint64_t request = commander.send({.kind = "add_roi",
+                                                          .region = "r" + std::to_string(i),
+                                                          .centre = {double(i), 0, 0},
+                                                          .radius = 0.5,
+                                                          .settings = {{"shape", "sphere"}}});
+            ASSERT_TRUE(test::eventually([&] {
+                commander.wait(std::stop_token(), 50ms);
+                const auto reply = commander.take_answer(request);
+                EXPECT_TRUE(!reply || reply->applied()) << reply->text;
+                return reply.has_value();
+            }));
+        }
+    }
+    Child list(slodctl({"roi", "list", "--json"}));
+    ASSERT_EQ(list.wait(), 0) << list.errors();
+    const std::string lines = list.output();
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), count + 1);
+    EXPECT_EQ(control({"roi", "show", "r7"}), 0);
+    EXPECT_EQ(answer.at("centre"), json({7, 0, 0}));
+    EXPECT_EQ(answer.at("shape"), "sphere");
+    EXPECT_EQ(answer.at("partition"), "roi/r7");
+    EXPECT_EQ(control({"roi", "show", "r100"}), 0);
+    EXPECT_EQ(answer.at("partition"), "auto") << "only 64 have partitions of their own";
+    EXPECT_EQ(control({"roi", "show", "r200"}), int(ExitCode::NotFound));
+}
+
+// One reader of clusters is killed, one is frozen.
+TEST_F(Commands, AClientThatDiesOrStopsDelaysNoFrame)
+{
+    const Child running(server());
+    client::Connection connection = connect({.stats = true});
+    const Child killed(slodctl({"watch", "--clusters"}));
+    const Child frozen(slodctl({"watch", "--clusters"}));
+    ASSERT_TRUE(test::eventually([&] { return !killed.output().empty() && !frozen.output().empty(); }));
+    ASSERT_TRUE(sees(connection, [&] { return connection.stats() && connection.stats()->frame > 0; }));
+    killed.signal(SIGKILL);
+    frozen.signal(SIGSTOP);
+    const std::uint64_t frame = connection.stats()->frame;
+    const std::uint64_t published = connection.stats()->wire.published_frames;
+    EXPECT_TRUE(sees(connection, [&] { return connection.stats()->frame > frame + 200; }));
+    EXPECT_GT(connection.stats()->wire.published_frames, published);
+    EXPECT_EQ(connection.stats()->wire.delayed_frames, 0U);
+    EXPECT_EQ(connection.stats()->wire.refused_samples, 0U);
+}
+
+TEST_F(Commands, TheRegionOfAClientThatIsGoneEndsWithItsLease)
+{
+    Child running(server());
+    ASSERT_EQ(control({"roi", "add", "lent", "--radius", "1", "--lease", "0.5"}), 0);
+    client::Connection connection = connect({.regions = true});
+    EXPECT_TRUE(sees(connection, [&] {
+        return connection.knows_all_regions() && !connection.regions().contains("lent");
+    }));
+    EXPECT_EQ(control({"roi", "move", "lent", "--centre", "1,2,3"}), int(ExitCode::NotFound));
+    EXPECT_EQ(control({"stop"}), 0);
+    EXPECT_EQ(running.wait(), 0);
+    EXPECT_EQ(replay(), 0) << "the removal is in the log";
+}
+
+TEST_F(Commands, AViewMovesTheFrustumThatFollowsIt)
+{
+    const Child running(server());
+    ASSERT_EQ(control({"roi", "add", "seen", "--set", "shape=frustum", "--set", "follows=a desk", "--set",
+                       "view_share=0.5"}),
+              0)
+        << answer;
+    client::Connection connection = connect({.regions = true});
+    wire::Writer<wire::View> writer(connection.participant());
+    wire::View view{};
+    wire::set(view.client, wire::new_uuid());
+    wire::set(view.client_name, "a desk");
+    view.eye = {1, 2, 3};
+    view.look_at = {1, 2, 0};
+    view.up = {0, 1, 0};
+    view.field_of_view_deg = 50;
+    view.width_px = 300;
+    view.height_px = 200;
+    EXPECT_TRUE(writer.write(view));
+    EXPECT_TRUE(sees(connection, [&] {
+        const auto seen = connection.regions().find("seen");
+        return seen != connection.regions().end() && seen->second.centre == std::array<double, 3>{1, 2, 3};
+    }));
+    const client::RegionInfo& seen = connection.regions().at("seen");
+    EXPECT_EQ(seen.field_of_view_deg, 25);
+    EXPECT_EQ(seen.aspect, 1.5);
+    EXPECT_EQ(seen.direction, (std::array<double, 3>{0, 0, -3}));
+}
+
+TEST_F(Commands, SlodctlsExitCodeSaysWhatBecameOfACommand)
+{
+    EXPECT_EQ(Child({SLODCTL, "pause", "--domain", domain.text(), "--timeout", "0.2"}).wait(),
+              int(ExitCode::NoServer));
+    const Child running(server());
+    EXPECT_EQ(control({"roi", "add", "a", "--half-extent", "1,2,3"}), int(ExitCode::Success));
+    EXPECT_EQ(control({"roi", "add", "a"}), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(answer.at("result"), "region_exists");
+    EXPECT_EQ(control({"roi", "set", "a", "lunch=1"}), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(answer.at("field"), "lunch");
+    EXPECT_EQ(control({"roi", "set", "a", "lunch"}), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(control({"roi", "move", "a", "--centre", "1,2"}), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(control({"roi", "move", "a", "--centre", "1,2,3", "--if-revision", "12345"}),
+              int(ExitCode::InvalidArgument));
+    EXPECT_EQ(answer.at("result"), "stale_revision");
+    EXPECT_EQ(control({"roi", "remove", "b"}), int(ExitCode::NotFound));
+    EXPECT_EQ(control({"roi", "remove", "background"}), int(ExitCode::NotPermitted));
+    EXPECT_EQ(control({"roi", "resize", "a"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"roi"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"set", "gravity.strength=0.5", "gravity.closure=false"}), int(ExitCode::Success));
+    EXPECT_EQ(control({"set", "time.step=1"}), int(ExitCode::InvalidArgument));
+}
+
+TEST_F(Commands, AServerThatTakesNoCommandsMakesThemTimeOut)
+{
+    const Child running(server({"--set", "wire.commands=false"}));
+    client::Connection connection = connect({});
+    ASSERT_TRUE(sees(connection, [&] { return connection.server() != nullptr; }));
+    EXPECT_EQ(Child({SLODCTL, "pause", "--domain", domain.text(), "--timeout", "2"}).wait(),
+              int(ExitCode::TimedOut));
+}
+
+/// One of many who command at once: its next request, one after the other over all kinds that change regions.
+CommandRequest next_request(const std::string& own, int index)
+{
+    const double x = index % 7;
+    switch (index % 5) {
+    case 0:
+        return {.kind = "add_roi", .region = own, .half_extent = {1, 1, 1}, .settings = {{"shape", "box"}}};
+    case 1:
+        return {.kind = "move_roi", .region = own, .centre = {x, 0, 0}};
+    case 2:
+        return {.kind = "move_roi", .region = "common", .centre = {0, x, 0}};
+    case 3:
+        return {.kind = "set_roi",
+                .region = own,
+                .settings = {{"max_cluster_size", std::to_string(1 + index % 64)}}};
+    default:
+        return {.kind = "remove_roi", .region = own};
+    }
+}
+
+/// What the input log says the regions are in the end: by name, the settings as written.
+std::map<std::string, json> regions_by_log(const std::filesystem::path& file)
+{
+    std::map<std::string, json> regions;
+    std::ifstream stream(file);
+    for (std::string text; std::getline(stream, text);) {
+        const json line = json::parse(text);
+        const std::string command = line.value("command", "");
+        if (command == "remove_region")
+            regions.erase(line.at("region"));
+        else if (!command.empty())
+            regions[line.at("region")] = line.at("settings");
+    }
+    return regions;
+}
+
+// A commander has at most max_waiting requests under way, so they come in order; each of the last round but
+// one removes its region, and the last adds one again.
+TEST_F(Commands, TenThousandFromEightCommandersAreEachAnsweredOnceAndTheStateIsAsTheLogSays)
+{
+    constexpr int each = 1250, crowd = 8;
+    Child running(server());
+    client::Connection connection = connect({.regions = true});
+    ASSERT_EQ(control({"roi", "add", "common", "--radius", "1"}), 0);
+    struct Member {
+        std::unique_ptr<client::Commander> commander;
+        int sent = 0, answered = 0;
+    };
+    std::vector<Member> members(crowd);
+    for (Member& member : members)
+        member.commander = std::make_unique<client::Commander>(connection.participant());
+    const auto go_on = [&](Member& member, const std::string& own) {
+        client::Commander& commander = *member.commander;
+        while (member.sent < each && commander.waiting() < client::Commander::max_waiting)
+            commander.send(next_request(own, member.sent++));
+        commander.wait(std::stop_token(), 1ms);
+        for (const auto& [number, reply] : commander.take_answers()) {
+            ++member.answered;
+            EXPECT_TRUE(reply.applied()) << own << " " << number << ": " << reply.text;
+            EXPECT_GT(reply.applied_frame, 0U);
+        }
+    };
+    ASSERT_TRUE(test::eventually([&] {
+        for (std::size_t i = 0; i < members.size(); ++i)
+            go_on(members[i], "c" + std::to_string(i));
+        return std::all_of(members.begin(), members.end(), [](const Member& member) {
+            return member.answered >= each && member.commander->waiting() == 0;
+        });
+    }));
+    for (const Member& member : members)
+        EXPECT_EQ(member.answered, each);
+    ASSERT_EQ(control({"roi", "set", "common", "max_cluster_size=33"}), 0);
+    const std::uint64_t last = answer.at("revision");
+    ASSERT_TRUE(sees(connection, [&] {
+        const auto common = connection.regions().find("common");
+        return common != connection.regions().end() && common->second.revision == last;
+    }));
+    const client::Connection::Regions told = connection.regions();
+    EXPECT_EQ(control({"stop"}), 0);
+    EXPECT_EQ(running.wait(), 0);
+
+    const std::map<std::string, json> logged = regions_by_log(log());
+    EXPECT_EQ(logged.size() + 1, told.size()) << "and the background, which nobody changed";
+    for (const auto& [name, settings] : logged) {
+        ASSERT_TRUE(told.contains(name));
+        const auto& region = told.at(name);
+        const auto centre = [](double value) { return json(value).dump(); };
+        const std::string place = "centre=[" + centre(region.centre[0]) + ", " + centre(region.centre[1]) +
+                                  ", " + centre(region.centre[2]) + "]";
+        EXPECT_NE(std::find(settings.begin(), settings.end(), place), settings.end()) << place << settings;
+    }
+    EXPECT_EQ(replay(), 0);
+}
+
+} // namespace
+} // namespace slod
