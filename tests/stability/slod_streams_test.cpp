@@ -6,6 +6,7 @@
 
 #include "support/clouds.hpp"
 #include "support/rigid_scenes.hpp"
+#include "support/streams.hpp"
 
 // Rings that shear, streams from emitters, and light particles among heavy ones.
 namespace slod::test {
@@ -100,6 +101,88 @@ double error_in_a_shear(double drift_limit)
 TEST(SlodStability, S20_InStraightFlightWhatDriftsApartIsSplit)
 {
     EXPECT_LE(error_in_a_shear(0.01), 0.25 * error_in_a_shear(1e9));
+}
+
+/// Rms distance from the axis of what was thrown out between 1.5 and 0.5 units of time ago.
+double width_of(const SimulationSettings& settings)
+{
+    Simulation simulation(settings, {}, {});
+    run(simulation, 640);
+    double sum = 0;
+    int count = 0;
+    for (const Particle& particle : simulation.particles()) {
+        const double height = particle.position.z();
+        if (height < 2 || height > 30)
+            continue;
+        sum +=
+            (particle.position.x() * particle.position.x() + particle.position.y() * particle.position.y()) /
+            (height * height);
+        ++count;
+    }
+    return std::sqrt(sum / count);
+}
+
+// Where the rule of the first particle holds the width is that of as many samples as there are clusters, some
+// 300 on the way: a width is off by a share of 1 / sqrt(4 * 300) = 0.03, and 0.1 is three times that.
+TEST(SlodStability, S17_TheFirstParticlesRuleKeepsTheStreamsWidthAndThenItsMomentum)
+{
+    SimulationSettings exact = stream_settings();
+    exact.background.max_cluster_size = 1;
+    const double width = width_of(exact);
+    EXPECT_NEAR(width_of(stream_settings(1000, ClusterVelocity::First)) / width, 1, 0.1);
+    Simulation simulation(stream_settings(2, ClusterVelocity::First), {}, {});
+    for (int frame = 0; frame < 300; ++frame) {
+        const Snapshot& snapshot = simulation.step({.clusters = true, .conserved = true});
+        ASSERT_NEAR(snapshot.conserved.momentum.z(), 640.0 / 64 * 4 * (frame + 1),
+                    0.02 * 40 * (frame + 1) + 40);
+    }
+}
+
+// The mean of 16 is a quarter as far off the axis as one is.
+TEST(SlodStability, S18_EmissionIntoACoarseRegionMakesANarrowStreamWithoutTheRule)
+{
+    SimulationSettings exact = stream_settings();
+    exact.background.max_cluster_size = 1;
+    const double width = width_of(exact);
+    const double narrow = width_of(stream_settings()) / width;
+    EXPECT_LT(narrow, 0.5);
+    RecordProperty("width_ratio", std::to_string(narrow));
+}
+
+/// Heavy particles by themselves, and light ones in a region that attracts nothing.
+SimulationSettings bypassed()
+{
+    SimulationSettings settings = rigid_settings(1);
+    settings.background.max_breadth = 0.5;
+    settings.gravity.emplace();
+    settings.regions = {world_region("light", 1)};
+    settings.regions[0].most_mass = 1e-5;
+    settings.regions[0].partition.max_breadth = 0.5;
+    settings.regions[0].partition.attracts = Attracts::Nothing;
+    return settings;
+}
+
+TEST(SlodStability, S23_HeavyParticlesStayOnTheirOrbitsToTheBitWhileLightOnesComeAndGo)
+{
+    ParticleSet particles = ball(60, 1, 0.5, 23);
+    for (Particle& particle : particles)
+        particle.mass = 0.01F;
+    SimulationSettings settings = bypassed();
+    Simulation without(settings, particles, {});
+    settings.emitters = {jet("dust")};
+    settings.emitters[0].particle_mass = 1e-8;
+    Simulation with(settings, particles, {});
+    std::uint64_t born = 0;
+    for (int frame = 0; frame < 500; ++frame) {
+        born += with.step({}).counts.born;
+        without.step({});
+    }
+    EXPECT_GT(born, 4000U);
+    const ParticleSet expected = without.particles(), found = with.particles();
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_EQ(found[i].id, expected[i].id);
+        ASSERT_EQ(found[i].position, expected[i].position) << "particle " << i;
+    }
 }
 
 } // namespace
