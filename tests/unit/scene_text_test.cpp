@@ -128,9 +128,6 @@ Scene random_scene(std::uint64_t seed)
             settings.resize(section.name == "kind" ? 3 : scrambler.below(4));
             for (std::size_t i = 0; i < settings.size(); ++i) {
                 for_each_field(settings[i], scrambler);
-                if constexpr (requires { settings[i].follows; }) // a region whose bounds are not in disorder
-                    if (!problems(settings[i]).empty())
-                        settings[i] = {};
                 settings[i].name = std::string(section.name) + "-" + std::to_string(i);
             }
         } else if constexpr (requires { settings.value(); }) {
