@@ -10,7 +10,7 @@
 #include "app/outputs.hpp"
 #include "app/server.hpp"
 #include "app/status.hpp"
-#include "app/stop_on_signal.hpp"
+#include "idl/stop_on_signal.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/version.hpp"
 #include "ctl/commands.hpp"
+#include "idl/version.hpp"
 
 namespace slod::ctl {
 
@@ -42,7 +42,7 @@ void declare(CLI::App& app, CommandLine& line)
            "Where to look: loopback (this machine) or lan")
         ->check(CLI::IsMember(profile_names()))
         ->option_text("NAME [loopback]");
-    app.set_version_flag("--version", "slodctl " + std::string(client::version()));
+    app.set_version_flag("--version", "slodctl " + std::string(version()));
     app.require_subcommand(1);
     app.fallthrough();
     for (const CommandEntry& command : commands()) {

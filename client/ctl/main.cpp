@@ -2,13 +2,13 @@
 #include <exception>
 #include <variant>
 
-#include "common/stop_on_signal.hpp"
 #include "ctl/commands.hpp"
 #include "idl/dds.hpp"
+#include "idl/stop_on_signal.hpp"
 
 int main(int argc, char** argv)
 try {
-    const slod::client::StopOnSignal signals; // first: every later thread inherits the blocked signals
+    const slod::StopOnSignal signals; // first: every later thread inherits the blocked signals
     const auto parsed = slod::ctl::parse_command_line(argc, argv);
     if (const auto* code = std::get_if<slod::ctl::ExitCode>(&parsed))
         return int(*code);

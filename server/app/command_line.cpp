@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/version.hpp"
+#include "idl/version.hpp"
 
 namespace slod {
 namespace {

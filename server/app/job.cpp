@@ -12,7 +12,7 @@
 
 #include "app/output_file.hpp"
 #include "app/settings_json.hpp"
-#include "app/version.hpp"
+#include "idl/version.hpp"
 #include "sim/plan.hpp"
 
 namespace slod {

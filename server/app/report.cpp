@@ -4,7 +4,7 @@
 
 #include "app/input_log.hpp"
 #include "app/settings_json.hpp"
-#include "app/version.hpp"
+#include "idl/version.hpp"
 
 namespace slod {
 namespace {

@@ -10,7 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/pacer.hpp"
-#include "app/version.hpp"
+#include "idl/version.hpp"
 
 namespace slod {
 namespace {

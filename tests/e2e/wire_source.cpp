@@ -11,7 +11,7 @@
 #include <stop_token>
 
 #include "app/publisher.hpp"
-#include "app/stop_on_signal.hpp"
+#include "idl/stop_on_signal.hpp"
 
 namespace {
 

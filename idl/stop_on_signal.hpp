@@ -11,6 +11,9 @@ namespace slod {
 class StopOnSignal {
 public:
     StopOnSignal(); ///< throws std::system_error when signals cannot be blocked
+    ~StopOnSignal();
+    StopOnSignal(const StopOnSignal&) = delete;
+    StopOnSignal& operator=(const StopOnSignal&) = delete;
 
     /// Stop is requested once either signal has come.
     std::stop_token token() const { return source_.get_token(); }

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/stop_on_signal.hpp"
+#include "idl/stop_on_signal.hpp"
 
 namespace slod {
 namespace {

@@ -1,10 +1,6 @@
-#include "app/stop_on_signal.hpp"
+#include "idl/stop_on_signal.hpp"
 
-#include <cerrno>
-#include <ctime>
 #include <system_error>
-
-#include "core/assert.hpp"
 
 namespace slod {
 
@@ -24,15 +20,19 @@ StopOnSignal::Blocked::~Blocked()
 
 StopOnSignal::StopOnSignal()
     : waiter_([this](const std::stop_token& ended) {
-          // sigtimedwait cannot wait for a stop token too; a tenth of a second bounds the wait at exit.
-          const timespec patience{.tv_sec = 0, .tv_nsec = 100'000'000};
-          while (!ended.stop_requested()) {
-              if (sigtimedwait(&blocked_.signals(), nullptr, &patience) > 0)
-                  source_.request_stop();
-              else
-                  SLOD_ASSERT(errno == EAGAIN || errno == EINTR);
-          }
+          int signal = 0;
+          sigwait(&blocked_.signals(), &signal);
+          if (!ended.stop_requested())
+              source_.request_stop();
       })
 {}
+
+/// The waiting thread is sent what it waits for.
+StopOnSignal::~StopOnSignal()
+{
+    waiter_.request_stop();
+    if (!source_.stop_requested())
+        pthread_kill(waiter_.native_handle(), SIGTERM);
+}
 
 } // namespace slod
