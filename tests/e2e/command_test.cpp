@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <memory>
 #include <signal.h>
 
 #include "idl/dds.hpp"
@@ -205,6 +206,23 @@ TEST_F(Commands, AServerThatTakesNoCommandsMakesThemTimeOut)
     ASSERT_TRUE(sees(connection, [&] { return connection.server() != nullptr; }));
     EXPECT_EQ(Child({SLODCTL, "pause", "--domain", domain.text(), "--timeout", "2"}).wait(),
               int(ExitCode::TimedOut));
+}
+
+// One command is taken at a time; of those that come together the others are still there the next time.
+TEST_F(Commands, WhatIsMoreThanTheMostTakenAtOnceWaitsItsTurn)
+{
+    const Child running(server({"--set", "wire.max_commands=1"}));
+    client::Connection connection = connect({});
+    client::Commander commander(connection.participant());
+    ASSERT_TRUE(sees(connection, [&] { return commander.connected(); }));
+    for (std::size_t i = 0; i < client::Commander::max_waiting; ++i)
+        commander.send({.kind = "add_roi", .region = "r" + std::to_string(i), .radius = 1});
+    EXPECT_TRUE(test::eventually([&] {
+        commander.wait(std::stop_token(), 50ms);
+        return commander.waiting() == 0;
+    }));
+    for (const auto& [number, reply] : commander.take_answers())
+        EXPECT_TRUE(reply.applied()) << number << ": " << reply.text;
 }
 
 /// One of many who command at once: its next request, one after the other over all kinds that change regions.
