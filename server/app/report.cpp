@@ -75,6 +75,7 @@ std::string report(const ReportedRun& run)
         {"conserved",
          {{"start", conserved_json(summary.conserved_start)},
           {"end", conserved_json(summary.conserved_end)}}},
+        {"unanswered_force", vector_json(summary.unanswered_force)},
         {"counts", counts_json(summary.events)},
         {"settings", settings_json(run.scene)},
     };

@@ -19,6 +19,7 @@ void RunSummary::add(const Snapshot& snapshot, double work_ms)
     time = snapshot.time;
     particles = snapshot.counts.particles;
     clusters = snapshot.counts.clusters;
+    unanswered_force = snapshot.unanswered_force;
     frame_ms.add(work_ms);
     for (std::size_t phase = 0; phase < phase_count; ++phase)
         phase_ms[phase].add(snapshot.profile.milliseconds[phase]);

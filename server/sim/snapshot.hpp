@@ -77,6 +77,9 @@ struct Snapshot {
     double time = 0;         ///< scene time at the end of the frame
     FrameCounts counts;
     ConservedQuantities conserved;
+    /// Momentum per time that gravity brings in where regions do not attract those that attract them; 0
+    /// otherwise.
+    Vector3d unanswered_force{0, 0, 0};
     StepProfile profile;             ///< of this frame
     std::vector<RegionLoad> regions; ///< in order of precedence, the background last
     ClusterStates clusters;

@@ -183,6 +183,7 @@ void Simulation::State::evaluate_forces()
     const ForceCounts counts = evaluate_gravity(view, *kernels, *settings.gravity, gravitational_constant,
                                                 force_lists, store.clusters);
     snapshot.counts.interactions = counts.interactions;
+    snapshot.unanswered_force = counts.unanswered;
     snapshot.counts.walks = counts.groups;
     snapshot.counts.nodes_tested = counts.nodes_tested;
 }

@@ -127,7 +127,12 @@ TEST(Paper, A16_TheMomentumDroppedIsWhatTheLightOnesAreGiven)
     settings.gravity->precision = Precision::Double;
     Simulation simulation(settings, particles, {});
     const Vector3d before = simulation.snapshot({.conserved = true}).conserved.momentum;
-    run(simulation, 60);
+    Vector3d reported(0, 0, 0), last = simulation.snapshot({}).unanswered_force;
+    for (int frame = 0; frame < 60; ++frame) { // each frame's half kicks are by the old forces and the new
+        const Vector3d unanswered = simulation.step({}).unanswered_force;
+        reported += 0.5 * settings.time.step * (last + unanswered);
+        last = unanswered;
+    }
     const Vector3d dropped = simulation.snapshot({.conserved = true}).conserved.momentum - before;
     const ParticleSet after = simulation.particles();
     Vector3d given(0, 0, 0);
@@ -142,6 +147,7 @@ TEST(Paper, A16_TheMomentumDroppedIsWhatTheLightOnesAreGiven)
     }
     // Velocities of order 1 and a mass of 1, rounded twice in each frame.
     EXPECT_LE((dropped - given).norm(), 60 * 2 * 0x1p-52);
+    EXPECT_LE((dropped - reported).norm(), 60 * 4 * 0x1p-52);
     EXPECT_GT(dropped.norm(), 0.01 * light_mass * largest);
     EXPECT_LE(dropped.norm(), light_mass * largest);
 }
