@@ -17,10 +17,12 @@ constexpr std::uint32_t pools_per_turn = 16;
 /// Share of the maximum size that clusters are formed at; strays fill the rest.
 constexpr double filled = 0.7;
 
-/// A particle where it will be.
-Subject subject_of(const Particle& particle, const Vector3d& place)
+/// A particle where it will be, accelerated as the cluster it comes from.
+Subject subject_of(const Grouping& grouping, std::uint32_t index)
 {
-    return {place, double(particle.mass), particle.velocity.norm()};
+    const Particle& particle = grouping.particles[index];
+    return {grouping.place[index], double(particle.mass), particle.velocity.norm(),
+            double(grouping.pull[index])};
 }
 
 } // namespace
@@ -39,7 +41,7 @@ void Reforming::found(SlodTree& tree, std::span<const Particle> particles, std::
     target_.resize(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
         grouping_.place[i] = particles[i].position;
-        target_[i] = locate_or_grow(tree, subject_of(particles[i], particles[i].position));
+        target_[i] = locate_or_grow(tree, subject_of(grouping_, std::uint32_t(i)));
         start_life(tree.pool(target_[i]), motion_.shortest_life);
     }
     gather_groups(tree);
@@ -178,7 +180,7 @@ void Reforming::find_targets(SlodTree& tree)
             for (std::uint32_t i = due_[d].first; i < due_[d].first + due_[d].count; ++i) {
                 const Particle& particle = grouping_.particles[i];
                 grouping_.place[i] = midway(particle, life);
-                target_[i] = locate(tree, subject_of(particle, grouping_.place[i]));
+                target_[i] = locate(tree, subject_of(grouping_, i));
                 if (!target_[i].valid())
                     continue;
                 const std::uint64_t there = tree.pool(target_[i]).due_frame - context_.frame;
@@ -192,7 +194,7 @@ void Reforming::find_targets(SlodTree& tree)
         for (std::uint32_t i = due.first; i < due.first + due.count; ++i) {
             if (target_[i].valid())
                 continue;
-            target_[i] = locate_or_grow(tree, subject_of(grouping_.particles[i], grouping_.place[i]));
+            target_[i] = locate_or_grow(tree, subject_of(grouping_, i));
             if (Pool& pool = tree.pool(target_[i]); !due_now(pool))
                 start_life(pool, std::bit_floor(std::max<std::uint64_t>(life, motion_.shortest_life)));
         }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "support/clouds.hpp"
@@ -164,6 +165,57 @@ TEST(Paper, A16_LightParticlesInMuchLargerClustersCostFewInteractions)
     EXPECT_EQ(load_of(simulation, snapshot, "background").clusters, heavy);
     EXPECT_LT(load_of(simulation, snapshot, "light").clusters, light / 20);
     EXPECT_LT(snapshot.counts.interactions, 8 * heavy * heavy);
+}
+
+/// Weightless bodies on circular orbits of radius 0.5 to 2 about a mass of 1, in all planes.
+ParticleSet orbits(std::size_t count)
+{
+    ParticleSet particles(count + 1);
+    particles[0] = {.position = {0, 0, 0}, .velocity = {0, 0, 0}, .id = 1, .mass = 1};
+    for (std::size_t i = 1; i <= count; ++i) {
+        Random random(8, 0, i);
+        const auto outwards = random.direction(), aside = random.direction();
+        const Vector3d x(outwards[0], outwards[1], outwards[2]);
+        const Vector3d along = x.cross(Vector3d(aside[0], aside[1], aside[2])).normalized();
+        const double radius = 0.5 + 1.5 * random.uniform();
+        particles[i] = {
+            .position = radius * x, .velocity = along / std::sqrt(radius), .id = i + 1, .mass = 1e-9F};
+    }
+    return particles;
+}
+
+// On circular orbits the pull is 1 / r^2, so a region for pulls of 1 or more holds what is within a radius
+// of 1. A cluster's pull is that at its centre, and a member keeps its cluster's when that is re-formed: a
+// cluster of up to four of 2000 neighbours is some 0.3 wide there, and half of that off at most.
+TEST(Paper, A11_AccelerationDividesWhatIsReformed)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.kinds[0].softening = 0.01;
+    settings.gravity.emplace();
+    settings.motion.longest_life = 4;
+    settings.background.max_cluster_size = 4;
+    settings.background.pool_factor = 1;
+    RegionOfInterest pulled;
+    pulled.name = "pulled";
+    pulled.least_acceleration = 1;
+    pulled.partition = settings.background;
+    settings.regions = {pulled};
+    Simulation simulation(settings, orbits(2000), {});
+    run(simulation, 40);
+    const Snapshot& snapshot = simulation.snapshot({.clusters = true});
+    std::size_t inside = 0, outside = 0;
+    for (std::size_t i = 0; i < snapshot.clusters.size(); ++i) {
+        const double radius = snapshot.clusters.position[i].norm();
+        const bool in_region = snapshot.clusters.region[i] != background_row;
+        inside += in_region && radius < 0.8;
+        outside += !in_region && radius > 1.2;
+        if (snapshot.clusters.mass[i] < 0.5) {
+            EXPECT_FALSE(in_region && radius > 1.2) << radius;
+            EXPECT_FALSE(!in_region && radius < 0.8) << radius;
+        }
+    }
+    EXPECT_GT(inside, 50U);
+    EXPECT_GT(outside, 50U);
 }
 
 } // namespace
