@@ -39,6 +39,7 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"motion", "How particles move with their cluster."}, simulation.motion);
     visit(Section{"background", "Partitioning of all space that no other region of interest holds."},
           simulation.background);
+    visit(Section{"sharing", "How regions of interest share space."}, simulation.sharing);
     visit(Section{"region", "Regions of interest with a partitioning of their own."}, simulation.regions);
     visit(Section{"gravity", "The particles' attraction for each other."}, simulation.gravity);
     visit(Section{"uniform_gravity", "The same acceleration for everything."}, simulation.uniform_gravity);

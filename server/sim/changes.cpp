@@ -35,6 +35,19 @@ std::optional<RegionRow> Simulation::State::find_region(std::string_view name) c
     return RegionRow(found - tree.regions.begin());
 }
 
+/// Regions that do not come or go have been compared already.
+void Simulation::State::check_sharing(const RegionOfInterest& region, Problems& found) const
+{
+    if (settings.sharing.overlap || region.name == background_name)
+        return;
+    std::vector<RegionOfInterest> others;
+    for (std::size_t row = background_row + 1; row < tree.regions.size(); ++row)
+        if (tree.regions[row].open)
+            others.push_back(tree.regions[row].settings);
+    const Problems beside = problems_beside(region, others, settings.sharing);
+    found.insert(found.end(), beside.begin(), beside.end());
+}
+
 std::vector<Simulation::Region> Simulation::regions() const
 {
     const SlodTree& tree = state_->tree;
@@ -68,6 +81,7 @@ Problems Simulation::add_region(const RegionOfInterest& region)
         found.push_back("name = " + quoted(region.name) + " would be one region more than " +
                         std::to_string(max_regions) + "; remove another first.");
     check_plan(s.plan, region.partition, found);
+    s.check_sharing(region, found);
     if (!found.empty())
         return found;
     open_region(s.tree, region);
@@ -85,6 +99,7 @@ Problems Simulation::change_region(const RegionOfInterest& region)
     if (*row == background_row && region.shape != Shape::Everywhere)
         found.push_back("shape cannot change: the background is everywhere; add a region instead.");
     check_plan(s.plan, region.partition, found);
+    s.check_sharing(region, found);
     if (!found.empty())
         return found;
     slod::change_region(s.tree, *row, region, s.store.clusters);
@@ -121,6 +136,7 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("linear_drag", wanted.linear_drag == present.linear_drag);
     fixed("emitter", wanted.emitters == present.emitters);
     fixed("background", wanted.background == present.background);
+    fixed("sharing", wanted.sharing == present.sharing);
     fixed("region", wanted.regions == present.regions);
     fixed("gravity", wanted.gravity.has_value() == present.gravity.has_value());
     fixed("uniform_gravity", wanted.uniform_gravity.has_value() == present.uniform_gravity.has_value());

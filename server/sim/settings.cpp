@@ -80,7 +80,8 @@ void check_lives(const MotionSettings& motion, Problems& found)
                         "; use at most that.");
 }
 
-void check_regions(const std::vector<RegionOfInterest>& regions, Problems& found)
+void check_regions(const std::vector<RegionOfInterest>& regions, const SharingSettings& sharing,
+                   Problems& found)
 {
     check_names("region", regions, found);
     if (regions.size() > max_regions)
@@ -93,10 +94,24 @@ void check_regions(const std::vector<RegionOfInterest>& regions, Problems& found
                             " is the region of all that no other one holds, [background]; choose another.");
         for (const std::string& problem : problems(regions[i]))
             found.push_back(key + problem);
+        const auto earlier = std::span(regions).first(i);
+        for (const std::string& problem : problems_beside(regions[i], earlier, sharing))
+            found.push_back(key + problem);
     }
 }
 
 } // namespace
+
+Problems problems_beside(const RegionOfInterest& region, std::span<const RegionOfInterest> others,
+                         const SharingSettings& sharing)
+{
+    Problems found;
+    for (const RegionOfInterest& other : others)
+        if (!sharing.overlap && other.name != region.name && may_overlap(region, other))
+            found.push_back("shape overlaps that of region " + in_quotes(other.name) +
+                            ", which sharing.overlap = false forbids; move one of them, or allow it.");
+    return found;
+}
 
 bool is_name(std::string_view name)
 {
@@ -111,7 +126,7 @@ Problems problems(const SimulationSettings& settings)
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);
-    check_regions(settings.regions, found);
+    check_regions(settings.regions, settings.sharing, found);
     check_lives(settings.motion, found);
     if (settings.uniform_wind && !settings.linear_drag)
         found.push_back(

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -36,6 +37,13 @@ struct TimeSettings {
     friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
 };
 
+/// How regions of interest share space.
+struct SharingSettings {
+    bool overlap = true; ///< regions may overlap; else those that do are refused (O'Brien et al. 2001, 4.3)
+
+    friend bool operator==(const SharingSettings&, const SharingSettings&) = default;
+};
+
 /// All that the simulation needs to know of a scene. What is absent (an effect, an emitter) is not
 /// planned, run or allocated.
 struct SimulationSettings {
@@ -45,6 +53,7 @@ struct SimulationSettings {
     std::vector<ParticleKind> kinds; ///< at least one
     MotionSettings motion;
     RegionSettings background; ///< of all that no region of interest holds
+    SharingSettings sharing;
     std::vector<RegionOfInterest> regions;
     std::optional<GravitySettings> gravity;
     std::optional<UniformGravitySettings> uniform_gravity;
@@ -59,6 +68,11 @@ inline constexpr std::size_t max_regions = 4096;
 /// What no single field's range can say is wrong with the settings together; empty when nothing is.
 Problems problems(const SimulationSettings& settings);
 
+/// What is wrong with a region beside those that are there (one of its own name does not count), where
+/// regions may not overlap.
+Problems problems_beside(const RegionOfInterest& region, std::span<const RegionOfInterest> others,
+                         const SharingSettings& sharing);
+
 /// Whether it is a name: 1 to 32 of a-z, 0-9, _ and -.
 bool is_name(std::string_view name);
 
@@ -68,6 +82,13 @@ void for_each_field(Units& units, Visitor&& visit)
     visit(Field{"length", "m", "Length of the scene's unit of length.", 1e-30, 1e30}, units.length_m);
     visit(Field{"mass", "kg", "Mass of the scene's unit of mass.", 1e-60, 1e60}, units.mass_kg);
     visit(Field{"time", "s", "Duration of the scene's unit of time.", 1e-30, 1e30}, units.time_s);
+}
+
+template <class Visitor>
+void for_each_field(SharingSettings& sharing, Visitor&& visit)
+{
+    visit(Field{"overlap", "", "Regions of interest may overlap; if not, one that does is refused."},
+          sharing.overlap);
 }
 
 template <class Visitor>

@@ -34,6 +34,7 @@ struct Simulation::State {
     void copy_clusters();
 
     std::optional<RegionRow> find_region(std::string_view name) const;
+    void check_sharing(const RegionOfInterest& region, Problems& found) const;
     void take_up_merging();
     void set_fields(); ///< from the settings
 

@@ -194,6 +194,19 @@ bool RegionTest::covers(const Box& box) const
     return false;
 }
 
+bool may_overlap(const RegionOfInterest& a, const RegionOfInterest& b)
+{
+    const Box first = RegionTest(a).bounds(), second = RegionTest(b).bounds();
+    const auto meet = [](double a_least, double a_most, double b_least, double b_most) {
+        return a_least < b_most && b_least < a_most;
+    };
+    return (first.lower.array() < second.upper.array()).all() &&
+           (second.lower.array() < first.upper.array()).all() &&
+           meet(a.least_mass, a.most_mass, b.least_mass, b.most_mass) &&
+           meet(a.least_speed, a.most_speed, b.least_speed, b.most_speed) &&
+           meet(a.least_acceleration, a.most_acceleration, b.least_acceleration, b.most_acceleration);
+}
+
 Problems problems(const RegionOfInterest& region)
 {
     Problems found;

@@ -111,6 +111,9 @@ private:
 /// What is wrong with a region, each with the key in front.
 Problems problems(const RegionOfInterest& region);
 
+/// Whether something may belong in both, by a box around each and by their ranges: never false falsely.
+bool may_overlap(const RegionOfInterest& a, const RegionOfInterest& b);
+
 template <class Visitor>
 void for_each_field(RegionOfInterest& region, Visitor&& visit)
 {

@@ -117,6 +117,34 @@ TEST(Paper, A36_AClusterThatDriftsIntoAnOverlaidRegionIsTransferredInThatFrame)
     EXPECT_EQ(load_of(simulation, simulation.snapshot({}), "overlay").particles, 0U);
 }
 
+// A refused region changes nothing. What is searched then is bottom-up, but for leaves that a region's face
+// cuts.
+TEST(Paper, A37_WhereOverlapsAreForbiddenRegionsThatOverlapAreRefused)
+{
+    SimulationSettings settings = rigid_settings(8);
+    settings.sharing.overlap = false;
+    settings.regions = {box_region("left", {-1, 0, 0}, {1, 1, 1}, 4),
+                        box_region("right", {1, 0, 0}, {1, 1, 1}, 4)};
+    ASSERT_EQ(problems(settings), Problems{}) << "they share a face, which belongs to one of them";
+    SimulationSettings overlapping = settings;
+    overlapping.regions[1].centre.x() = 0.9;
+    ASSERT_EQ(problems(overlapping).size(), 1U);
+    EXPECT_NE(problems(overlapping)[0].find("region.1.shape overlaps that of region \"left\""),
+              std::string::npos);
+
+    Simulation simulation(settings, ball(300, 1, 0.2, 1), {});
+    run(simulation, 5);
+    const std::uint64_t before = simulation.state_hash();
+    EXPECT_EQ(simulation.add_region(ball_region("ball", {0, 0, 0}, 0.5, 2)).size(), 2U);
+    RegionOfInterest moved = settings.regions[0];
+    moved.centre.x() = 0;
+    EXPECT_EQ(simulation.change_region(moved).size(), 1U);
+    EXPECT_EQ(simulation.state_hash(), before);
+    EXPECT_EQ(simulation.add_region(ball_region("apart", {0, 0, 3}, 0.5, 2)), Problems{});
+    moved.centre.x() = -3;
+    EXPECT_EQ(simulation.change_region(moved), Problems{});
+}
+
 // No cluster is faster than the fastest particle, so none moves farther in a frame than that one; a particle
 // that is formed anew is moved by a rounding to float of its offset, which is no longer than the cloud.
 TEST(Paper, A38_RegionsMoveResizeAndChangeWhileTheSimulationRuns)

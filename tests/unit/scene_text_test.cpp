@@ -144,6 +144,7 @@ Scene random_scene(std::uint64_t seed)
         emitter.direction.z() = 1;
         emitter.direction.x() = emitter.direction.y() = -0.0;
     }
+    simulation.sharing.overlap = true;
     for (RegionOfInterest& region : simulation.regions) {
         region.direction = {0, 0.5, -1};
         region.up = {0, 3, 0};
