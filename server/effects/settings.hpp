@@ -49,7 +49,8 @@ struct EmitterSettings {
 template <class Visitor>
 void for_each_field(UniformGravitySettings& gravity, Visitor&& visit)
 {
-    visit(Field{"acceleration", "length/time^2", "Acceleration of everything."}, gravity.acceleration);
+    visit(Field{"acceleration", "length/time^2", "Acceleration of everything.", -1e30, 1e30},
+          gravity.acceleration);
 }
 
 template <class Visitor>
@@ -61,7 +62,8 @@ void for_each_field(LinearDragSettings& drag, Visitor&& visit)
 template <class Visitor>
 void for_each_field(UniformWindSettings& wind, Visitor&& visit)
 {
-    visit(Field{"velocity", "length/time", "Velocity of the air; acts through the drag."}, wind.velocity);
+    visit(Field{"velocity", "length/time", "Velocity of the air; acts through the drag.", -1e30, 1e30},
+          wind.velocity);
 }
 
 template <class Visitor>

@@ -1,6 +1,7 @@
 #include "gravity/force_view.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 #include "core/parallel.hpp"
@@ -52,23 +53,29 @@ public:
         : view_(view), tree_(tree), clusters_(clusters)
     {}
 
-    /// Cells [begin, end), whose codes agree above bit 3 * level.
-    void add_cells(std::size_t begin, std::size_t end, int level)
+    /// Cells [begin, end), in the order of their codes.
+    void add_cells(std::size_t begin, std::size_t end)
     {
         if (begin == end)
             return;
-        if (end - begin == 1 || level == 0) {
+        const std::uint64_t apart = view_.cells[begin].key ^ view_.cells[end - 1].key;
+        if (apart == 0) { // one cell, or cells that share their code
             for (std::size_t cell = begin; cell < end; ++cell)
                 add_tree(view_.cells[cell].root);
             return;
         }
         const std::size_t node = open();
+        const int shift =
+            (int(std::bit_width(apart)) - 1) / 3 * 3; // of the octants in which the cells differ
         for (std::uint64_t octant = 0; octant < 8; ++octant) {
-            std::size_t split = begin;
-            while (split < end && (view_.cells[split].key >> (3 * (level - 1)) & 7) == octant)
-                ++split;
-            add_cells(begin, split, level - 1);
-            begin = split;
+            const auto within = [&](const ForceView::CellRoot& cell) {
+                return (cell.key >> shift & 7) <= octant;
+            };
+            const auto first = view_.cells.begin();
+            const auto split =
+                std::partition_point(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(end), within);
+            add_cells(begin, std::size_t(split - first));
+            begin = std::size_t(split - first);
         }
         close(node);
     }
@@ -198,10 +205,11 @@ void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
                                  .first_node = std::uint32_t(view.nodes.size()),
                                  .attracts = subtree.settings.attracts};
         sort_cells(view.cells, subtree);
-        Builder(view, subtree, clusters).add_cells(0, view.cells.size(), 21);
+        Builder(view, subtree, clusters).add_cells(0, view.cells.size());
         region.last_body = std::uint32_t(view.slot.size());
         region.last_node = std::uint32_t(view.nodes.size());
-        view.regions.push_back(region);
+        if (region.body_count() > 0)
+            view.regions.push_back(region);
     }
     fill_bodies(view, clusters, gravity);
     sum_up_nodes(view);

@@ -47,7 +47,7 @@ struct ForceView {
     std::vector<ClusterSlot> slot;
 
     AlignedVector<Node> nodes;   ///< depth first; one root per region that holds anything
-    std::vector<Region> regions; ///< in the tree's order; bodies and nodes go region by region
+    std::vector<Region> regions; ///< that hold anything, by row; bodies and nodes go region by region
 
     std::size_t body_count() const { return slot.size(); }
     Vector3d position(std::size_t body) const { return {x[body], y[body], z[body]}; }

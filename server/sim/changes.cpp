@@ -102,6 +102,8 @@ Problems Simulation::change_region(const RegionOfInterest& region)
     s.check_sharing(region, found);
     if (!found.empty())
         return found;
+    const bool same_sources = s.tree.subtrees[*row].settings.attracts == region.partition.attracts;
+    s.forces_stale = s.forces_stale || (s.settings.gravity && !same_sources);
     slod::change_region(s.tree, *row, region, s.store.clusters);
     s.take_up_merging();
     return {};
@@ -144,9 +146,19 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     if (!found.empty())
         return found;
     s.forces_stale = s.forces_stale || wanted.gravity != present.gravity;
+    if (wanted.gravity)
+        s.scale_pulls(present.gravity->strength > 0 ? wanted.gravity->strength / present.gravity->strength
+                                                    : 0);
     s.settings = wanted;
     s.set_fields();
     return {};
+}
+
+/// Keeps the last pulls, which errors are compared with, in line with the strength of gravity; 0: not known.
+void Simulation::State::scale_pulls(double factor)
+{
+    for (auto& pull : store.clusters.pull)
+        pull *= factor;
 }
 
 void Simulation::State::set_fields()

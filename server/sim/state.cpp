@@ -104,7 +104,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 void Simulation::State::open_frame()
 {
     store.members.recycle(frame);
-    if (!tree.changes.empty())
+    if (tree.unsettled)
         settle(tree);
     make_room();
     if (forces_stale) {

@@ -36,6 +36,7 @@ struct Simulation::State {
     std::optional<RegionRow> find_region(std::string_view name) const;
     void check_sharing(const RegionOfInterest& region, Problems& found) const;
     void take_up_merging();
+    void scale_pulls(double factor);
     void set_fields(); ///< from the settings
 
     /// Runs and times a phase, if the plan has it.

@@ -122,7 +122,8 @@ void for_each_field(RegionOfInterest& region, Visitor&& visit)
                 1e9},
           region.precedence);
     visit(Field{"shape", "", "Which of the fields below say where the region is."}, region.shape);
-    visit(Field{"centre", "length", "Centre of a box or a sphere, the eye of a frustum."}, region.centre);
+    visit(Field{"centre", "length", "Centre of a box or a sphere, the eye of a frustum.", -1e30, 1e30},
+          region.centre);
     visit(Field{"half_extent", "length", "Half the sides of a box.", 0, 1e30}, region.half_extent);
     visit(Field{"radius", "length", "Of a sphere.", 0, 1e30}, region.radius);
     visit(Field{"direction", "", "Of sight, for a frustum; any length but 0."}, region.direction);

@@ -88,7 +88,8 @@ void RegionIndex::spread(std::uint32_t rank)
 Cell RegionIndex::cell_of(const Vector3d& x) const
 {
     const auto coordinate = [&](double value) {
-        return std::int32_t(std::clamp(std::floor(value / side_), -double(cell_limit), double(cell_limit)));
+        const double cell = std::floor(value / side_);
+        return cell > -cell_limit ? std::int32_t(std::min(cell, double(cell_limit))) : -cell_limit;
     };
     return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z())};
 }

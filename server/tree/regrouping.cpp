@@ -160,6 +160,11 @@ void Regrouping::measure_surroundings(const SlodTree& tree)
     const ClusterTable& clusters = context_.store.clusters;
     surroundings_.assign(tree.subtrees.size(), Vector3d(0, 0, 0));
     in_region_.assign(tree.subtrees.size(), 0);
+    const auto at_rest = [](const Subtree& subtree) {
+        return subtree.settings.velocity_reference == VelocityReference::Rest;
+    };
+    if (std::all_of(tree.subtrees.begin(), tree.subtrees.end(), at_rest))
+        return;
     for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
         surroundings_[clusters.region[slot]] += double(clusters.count[slot]) * clusters.velocity[slot];
         in_region_[clusters.region[slot]] += clusters.count[slot];

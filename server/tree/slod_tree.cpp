@@ -21,7 +21,8 @@ double cell_side_of(const SlodTree& tree, const RegionOfInterest& region)
     if (std::isfinite(region.partition.max_breadth))
         return region.partition.max_breadth;
     const double width = RegionTest(region).bounds().size().maxCoeff();
-    if (!std::isfinite(width))
+    constexpr double widest = 1e300; // whose power of two is a number yet
+    if (width > widest)
         return tree.subtrees[background_row].cell_side;
     return width > 0 ? std::ldexp(1.0, std::ilogb(width) + 1) : 1.0;
 }
@@ -54,27 +55,51 @@ bool meet(const Box& a, const Box& b)
     return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
 }
 
-void mark_contested(SlodTree& tree, Subtree& subtree)
+/// Places that changed hands.
+std::vector<Box> changed_places(const SlodTree& tree)
 {
+    std::vector<Box> places;
+    for (const SlodTree::Region& region : tree.regions) {
+        if (!region.moved)
+            continue;
+        places.push_back(region.before);
+        if (region.open)
+            places.push_back(RegionTest(region.settings).bounds());
+    }
+    return places;
+}
+
+void mark_contested(SlodTree& tree, Subtree& subtree, const std::vector<Box>& changes)
+{
+    const bool all = tree.regions[subtree.region].laid_anew;
     for_each_block(subtree.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t node = first; node < last; ++node) {
             Node& marked = subtree.nodes[node];
             const auto near = [&](const Box& change) { return meet(change, marked.box); };
-            if (std::any_of(tree.changes.begin(), tree.changes.end(), near))
+            if (all || std::any_of(changes.begin(), changes.end(), near))
                 marked.contested = tree.index.contested(marked.box, subtree.region);
         }
     });
 }
 
 /// A pool whose place changed hands, or whose region is closed, is due at once.
-void end_lives(const SlodTree& tree, Subtree& subtree)
+void end_lives(const SlodTree& tree, Subtree& subtree, const std::vector<Box>& changes)
 {
     const bool closed = !tree.regions[subtree.region].open;
     for (Pool& pool : subtree.pools) {
         const auto near = [&](const Box& change) { return meet(change, subtree.nodes[pool.node.index].box); };
-        if (pool.node.valid() && (closed || std::any_of(tree.changes.begin(), tree.changes.end(), near)))
+        if (pool.node.valid() && (closed || std::any_of(changes.begin(), changes.end(), near)))
             pool.due_frame = 0;
     }
+}
+
+/// Notes where the region was, if this is its first change since the tree was settled.
+void note_move(SlodTree& tree, RegionRow row, const Box& before)
+{
+    SlodTree::Region& region = tree.regions[row];
+    if (!region.moved)
+        region.before = before;
+    region.moved = tree.unsettled = true;
 }
 
 } // namespace
@@ -82,7 +107,9 @@ void end_lives(const SlodTree& tree, Subtree& subtree)
 SlodTree::SlodTree(const RegionSettings& background, double cell_side)
 {
     subtrees.emplace_back(background, background_row, cell_side);
-    Region region{.settings = {}, .number = openings++, .open = true};
+    Region region;
+    region.number = openings++;
+    region.open = true;
     region.settings.name = background_name;
     region.settings.partition = background;
     regions.push_back(region);
@@ -116,8 +143,10 @@ RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)
     } else {
         tree.subtrees[row] = Subtree(region.partition, RegionRow(row), cell_side_of(tree, region));
     }
-    tree.regions[row] = {.settings = region, .number = tree.openings++, .open = true};
-    tree.changes.push_back(RegionTest(region).bounds());
+    const Box nowhere{all_space.upper, all_space.lower}; // meets nothing
+    const Box before = tree.regions[row].moved ? tree.regions[row].before : nowhere;
+    tree.regions[row] = {.settings = region, .number = tree.openings++, .open = true, .before = before};
+    tree.regions[row].moved = tree.unsettled = true;
     return RegionRow(row);
 }
 
@@ -130,14 +159,14 @@ void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region
     const double side = background && !std::isfinite(region.partition.max_breadth)
                             ? subtree.cell_side
                             : cell_side_of(tree, region);
-    if (!background) {
-        tree.changes.push_back(RegionTest(old.settings).bounds());
-        tree.changes.push_back(RegionTest(region).bounds());
-    }
-    if (same_cells(subtree, region.partition, side))
+    if (!background)
+        note_move(tree, row, RegionTest(old.settings).bounds());
+    if (same_cells(subtree, region.partition, side)) {
         subtree.settings = region.partition;
-    else
+    } else {
         lay_cells_anew(tree, row, region.partition, side, clusters);
+        old.laid_anew = tree.unsettled = true;
+    }
     old.settings = region;
 }
 
@@ -145,7 +174,7 @@ void close_region(SlodTree& tree, RegionRow row)
 {
     SLOD_ASSERT(row != background_row && row < tree.regions.size() && tree.regions[row].open);
     tree.regions[row].open = false;
-    tree.changes.push_back(RegionTest(tree.regions[row].settings).bounds());
+    note_move(tree, row, RegionTest(tree.regions[row].settings).bounds());
 }
 
 void settle(SlodTree& tree)
@@ -165,11 +194,14 @@ void settle(SlodTree& tree)
     for (const RegionRow row : order)
         entries.push_back({row, RegionTest(tree.regions[row].settings)});
     tree.index.assign(std::move(entries));
+    const std::vector<Box> changes = changed_places(tree);
     for (Subtree& subtree : tree.subtrees) {
-        mark_contested(tree, subtree);
-        end_lives(tree, subtree);
+        mark_contested(tree, subtree, changes);
+        end_lives(tree, subtree, changes);
     }
-    tree.changes.clear();
+    for (SlodTree::Region& region : tree.regions)
+        region.moved = region.laid_anew = false;
+    tree.unsettled = false;
 }
 
 void free_closed(SlodTree& tree)

@@ -26,6 +26,9 @@ struct SlodTree {
         RegionOfInterest settings;
         std::uint64_t number = 0; ///< of its opening, never used again: the earlier of equals takes
         bool open = false;        ///< closed ones give their clusters away and are empty after an update
+        bool moved = false;       ///< it came, went or changed its place since settle()
+        bool laid_anew = false;   ///< its cells did
+        Box before;               ///< where it was at the last settle(), when it has moved
     };
 
     /// With nothing but the background.
@@ -35,7 +38,7 @@ struct SlodTree {
     std::vector<Region> regions;   ///< by row
     RegionIndex index;             ///< of the open ones
     std::uint64_t openings = 0;    ///< regions opened so far
-    std::vector<Box> changes;      ///< where regions were or came since settle()
+    bool unsettled = false;        ///< a region changed since settle()
 
     Subtree& of(const PoolRef& ref) { return subtrees[ref.region]; }
     const Subtree& of(const PoolRef& ref) const { return subtrees[ref.region]; }
@@ -60,7 +63,7 @@ void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region
 void close_region(SlodTree& tree, RegionRow row);
 
 /// Makes changed regions count: brings the index and the cells' marks up to date, and ends the lives of the
-/// pools where something changed. Clears `changes`.
+/// pools where something changed. However often a region changed, where it was and is counts.
 void settle(SlodTree& tree);
 
 /// Frees the rows of closed regions that hold nothing any more.

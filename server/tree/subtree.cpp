@@ -174,7 +174,8 @@ Cell cell_of(const Subtree& tree, const Subject& subject)
             --cell;
         else if (value >= (cell + 1) * tree.cell_side)
             ++cell;
-        return std::int32_t(std::clamp(cell, -rim, rim));
+        return cell > -rim ? std::int32_t(std::min(cell, rim))
+                           : std::int32_t(-rim); // as is what is no number
     };
     const Vector3d& x = subject.position;
     return {coordinate(x.x()), coordinate(x.y()), coordinate(x.z()), bin_of(tree.settings, subject)};

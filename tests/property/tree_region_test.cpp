@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support/random_regions.hpp"
+#include "tree/slod_tree.hpp"
 
 namespace slod {
 namespace {
@@ -54,6 +58,60 @@ TEST(RegionTest, MissesAndCoversWhatItContainsNothingOrAllOf)
     }
     EXPECT_GT(missed, 5000U);
     EXPECT_GT(covered, 20U);
+}
+
+/// Sets the `wanted`-th of a region's numbers to one end of its range; false when there is none.
+struct Extreme {
+    int wanted;
+    bool largest;
+    bool set = false;
+
+    void operator()(const Field& field, double& value)
+    {
+        if (wanted-- == 0) {
+            value = std::clamp(largest ? field.maximum : field.minimum, -1e308, 1e308);
+            set = true;
+        }
+    }
+    void operator()(const Field& field, Vector3d& value)
+    {
+        if (wanted-- == 0) {
+            value.setConstant(std::clamp(largest ? field.maximum : field.minimum, -1e308, 1e308));
+            set = true;
+        }
+    }
+    template <class Other>
+    void operator()(const Field&, const Other&)
+    {}
+};
+
+TEST(SlodTree, TakesEveryRegionThatHasNoProblemsHoweverExtremeItsNumbers)
+{
+    int taken = 0;
+    for (const Shape shape : {Shape::Everywhere, Shape::Box, Shape::Sphere, Shape::Frustum}) {
+        for (const bool largest : {false, true}) {
+            for (int number = 0;; ++number) {
+                RegionOfInterest region;
+                region.shape = shape;
+                region.up = {0, 1, 0.1};
+                Extreme extreme{number, largest};
+                for_each_field(region, extreme);
+                if (!extreme.set)
+                    break;
+                if (!problems(region).empty())
+                    continue;
+                SlodTree tree({}, 1);
+                open_region(tree, region);
+                settle(tree);
+                for (const Vector3d& x :
+                     {Vector3d(0, 0, 0), Vector3d(1e30, -1e30, 1e30), Vector3d(0, 0, -1e300)})
+                    EXPECT_TRUE(locate_or_grow(tree, x).valid());
+                EXPECT_TRUE(locate_or_grow(tree, Vector3d(0, std::nan(""), 0)).valid());
+                ++taken;
+            }
+        }
+    }
+    EXPECT_GT(taken, 100);
 }
 
 TEST(RegionIndex, FindsWhatALookAtAllRegionsFinds)

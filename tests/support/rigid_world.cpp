@@ -36,7 +36,7 @@ void RigidWorld::advance()
     for (const ClusterSlot slot : alive())
         clusters.position[slot.index] += step * clusters.velocity[slot.index];
     world_.store.members.recycle(frame);
-    if (!world_.tree.changes.empty())
+    if (world_.tree.unsettled)
         settle(world_.tree);
     counts = {};
     regrouping_.update(world_.tree, frame, counts);
