@@ -118,6 +118,18 @@ TEST(Paper, A16_HeavyParticlesMoveAsIfTheLightOnesThatTheyBypassWereNotThere)
     }
 }
 
+// Before the first frame no particle has moved: a run whose rule is changed then is one that began with it.
+TEST(Paper, A16_AChangedRuleOfWhoAttractsWhomHoldsFromTheNextFrameOn)
+{
+    const ParticleSet particles = heavy_and_light(100, 300);
+    Simulation changed(separated(1, Attracts::Everything), particles, {});
+    Simulation begun(separated(1, Attracts::Nothing), particles, {});
+    ASSERT_EQ(changed.change_region(separated(1, Attracts::Nothing).regions[0]), Problems{});
+    run(changed, 1);
+    run(begun, 1);
+    EXPECT_EQ(largest_distance(changed.particles(), begun.particles()), 0);
+}
+
 // The heavy ones answer each other, to rounding, and nothing answers what the light ones are given: so much
 // is missing from the momentum, at most their share of the mass.
 TEST(Paper, A16_TheMomentumDroppedIsWhatTheLightOnesAreGiven)

@@ -34,6 +34,23 @@ TEST(SlodStability, S05_JitterOverAFaceOfACellFormsNothingAnew)
     }
 }
 
+// Cells are marked as soon as they are there: one far region is asked about at the first sight of a new cell
+// alone, and of none that has been laid anew.
+TEST(SlodStability, S12_CellsThatAreLaidAnewAskNoMoreRegionsThanTheOldOnes)
+{
+    SimulationSettings settings = rigid_settings(16);
+    settings.background.max_breadth = 2;
+    settings.regions = {box_region("far", {50, 0, 0}, {1, 1, 1}, 4)};
+    Simulation simulation(settings, cube(1600, 1, 1), {});
+    run(simulation, 20);
+    ASSERT_EQ(simulation.step({}).counts.boundary_tests, 0U) << "all rest in their cells";
+    RegionOfInterest background = simulation.regions().back().settings;
+    background.partition.max_breadth = 1.5;
+    ASSERT_EQ(simulation.change_region(background), Problems{});
+    run(simulation, 1);
+    EXPECT_EQ(simulation.step({}).counts.boundary_tests, 0U);
+}
+
 // A hundred clusters on the face of a fine region, whose face jitters.
 TEST(SlodStability, S05_JitterOverAFaceOfARegionSplitsAndMergesAtMostEveryTenthFrame)
 {
