@@ -224,17 +224,24 @@ Answer CommandDesk::resize_roi(const Request& request)
 {
     if (auto answer = objection(request))
         return *answer;
-    switch (editor_.find(request.region)->settings.shape) {
-    case Shape::Box:
-        return change(request, {{"half_extent", value_text(request.half_extent)}});
-    case Shape::Sphere:
-        return change(request, {{"radius", value_text(request.radius)}});
-    case Shape::Everywhere:
-    case Shape::Frustum:
-        break;
-    }
-    return refusal(slod_v1_RESULT_INVALID, "region",
-                   "Only a box or a sphere can be resized; set the region's shape, or its settings.");
+    const Shape shape = editor_.find(request.region)->settings.shape;
+    if (shape != Shape::Box && shape != Shape::Sphere)
+        return refusal(slod_v1_RESULT_INVALID, "region",
+                       "Only a box or a sphere can be resized; set the region's shape, or its settings.");
+    const bool box = shape == Shape::Box;
+    if (box && request.radius != 0)
+        return refusal(slod_v1_RESULT_INVALID, "radius",
+                       "The region is a box, which has no radius; give half_extent.");
+    if (!box && request.half_extent != Vector3d::Zero())
+        return refusal(slod_v1_RESULT_INVALID, "half_extent",
+                       "The region is a sphere, which has no half_extent; give radius.");
+    if (box && (request.half_extent.array() == 0).any())
+        return refusal(slod_v1_RESULT_INVALID, "half_extent",
+                       "half_extent is 0, which leaves nothing; give half the sides along x, y and z.");
+    if (!box && request.radius == 0)
+        return refusal(slod_v1_RESULT_INVALID, "radius", "radius is 0, which leaves nothing; give one.");
+    return change(request, {box ? Assignment{"half_extent", value_text(request.half_extent)}
+                                : Assignment{"radius", value_text(request.radius)}});
 }
 
 Answer CommandDesk::set_roi(const Request& request)

@@ -135,6 +135,33 @@ TEST_F(Desk, MoveResizeSetAndRemoveChangeTheRegion)
     EXPECT_EQ(simulation.regions().size(), 1U);
 }
 
+// Neither leaves the region what it was, nor makes one that holds nothing.
+TEST_F(Desk, ARegionIsResizedByTheSizeOfItsShapeAlone)
+{
+    ask(add("box"));
+    Request add_sphere = request("add_roi", "sphere");
+    add_sphere.radius = 1;
+    add_sphere.settings = {{"shape", "sphere"}};
+    ask(add_sphere);
+    const auto refused_field = [&](const char* name, const Vector3d& half_extent, double radius) {
+        Request resize = request("resize_roi", name);
+        resize.half_extent = half_extent;
+        resize.radius = radius;
+        const Answer answer = ask(resize);
+        EXPECT_EQ(answer.result, slod_v1_RESULT_INVALID);
+        return answer.field;
+    };
+    EXPECT_EQ(refused_field("box", {0, 0, 0}, 2), "radius");
+    EXPECT_EQ(refused_field("box", {2, 2, 2}, 2), "radius");
+    EXPECT_EQ(refused_field("box", {0, 0, 0}, 0), "half_extent");
+    EXPECT_EQ(refused_field("box", {2, 0, 2}, 0), "half_extent");
+    EXPECT_EQ(refused_field("sphere", {2, 2, 2}, 0), "half_extent");
+    EXPECT_EQ(refused_field("sphere", {2, 2, 2}, 2), "half_extent");
+    EXPECT_EQ(refused_field("sphere", {0, 0, 0}, 0), "radius");
+    EXPECT_EQ(region("box")->half_extent, Vector3d(1, 1, 1));
+    EXPECT_EQ(region("sphere")->radius, 1);
+}
+
 TEST_F(Desk, AStaleRevisionIsRefused)
 {
     const std::uint64_t added = ask(add("core")).revision;
