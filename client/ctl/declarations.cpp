@@ -1,9 +1,11 @@
 #include "ctl/declarations.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -95,11 +97,19 @@ CLI::App* change_action(CLI::App& app, CommandLine& line, const std::string& nam
     return sub;
 }
 
+/// Whether a setting is given whose key starts so.
+bool sets(const CommandRequest& request, std::string_view start)
+{
+    return std::any_of(request.settings.begin(), request.settings.end(),
+                       [start](const auto& setting) { return setting.first.starts_with(start); });
+}
+
 void declare_add(CLI::App& app, CommandLine& line)
 {
     CommandRequest& request = line.request;
     CLI::App& add = *region_action(app, line, "add", "Add a region.", "add_roi");
-    add_vector(add, "--centre", request.centre, "Centre of a box or a sphere, the eye of a frustum");
+    CLI::Option* const centre =
+        add_vector(add, "--centre", request.centre, "Centre of a box or a sphere, the eye of a frustum");
     CLI::Option* const half_extent =
         add_vector(add, "--half-extent", request.half_extent, "Half the sides of a box, which it makes it");
     CLI::Option* const radius = add_radius(add, request)->excludes(half_extent);
@@ -110,8 +120,18 @@ void declare_add(CLI::App& app, CommandLine& line)
                    "Remove it after so many seconds: nobody can renew it from here")
         ->check(CLI::Range(0.0, 1e6))
         ->option_text("SECONDS");
-    add.callback([&request, half_extent, radius] {
+    add.callback([&request, centre, half_extent, radius] {
         request.kind = "add_roi";
+        const bool sized = half_extent->count() > 0 || radius->count() > 0;
+        if (!sized && !sets(request, "shape")) {
+            if (centre->count() > 0)
+                throw CLI::RequiredError("with --centre one of --half-extent, --radius and --set shape=...");
+            if (!sets(request, "least_") && !sets(request, "most_"))
+                throw CLI::RequiredError(
+                    "one of --half-extent, --radius, --set shape=... and a range such as "
+                    "--set least_speed=1, or for all of the scene "
+                    "--set shape=everywhere,");
+        }
         if (half_extent->count() > 0)
             request.settings.insert(request.settings.begin(), {"shape", "box"});
         if (radius->count() > 0)

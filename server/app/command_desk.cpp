@@ -27,6 +27,22 @@ Answer refusal(const Problems& problems)
     return refusal(slod_v1_RESULT_INVALID, first.substr(0, first.find_first_of(" :")), first + more);
 }
 
+/// Whether a new region is told from the whole scene: by a shape, which may be everywhere, or else by a range
+/// of mass, speed or acceleration. A place or size without a shape would go unheard.
+bool says_where(const Request& request)
+{
+    const auto any = [&](const auto& says) {
+        return std::any_of(request.settings.begin(), request.settings.end(),
+                           [&](const Assignment& assignment) { return says(assignment.key); });
+    };
+    const bool placed =
+        request.centre != Vector3d::Zero() || request.half_extent != Vector3d::Zero() || request.radius != 0;
+    return any([](const std::string& key) { return key == "shape"; }) ||
+           (!placed && any([](const std::string& key) {
+               return key.starts_with("least_") || key.starts_with("most_");
+           }));
+}
+
 /// What a region looks like to a view; none where the view is no view.
 std::optional<RegionOfInterest> following(const RegionOfInterest& region, const ClientView& view)
 {
@@ -167,9 +183,15 @@ Answer CommandDesk::add_roi(const Request& request)
 
     RegionOfInterest region;
     region.name = request.region;
-    std::vector<Assignment> fields{{"centre", value_text(request.centre)},
-                                   {"half_extent", value_text(request.half_extent)},
-                                   {"radius", value_text(request.radius)}};
+    if (!says_where(request))
+        return refusal(
+            slod_v1_RESULT_INVALID, "shape",
+            "The settings say no shape; use box, sphere or frustum, or everywhere for all there is.");
+    std::vector<Assignment> fields{{"centre", value_text(request.centre)}};
+    if (request.half_extent != Vector3d::Zero())
+        fields.push_back({"half_extent", value_text(request.half_extent)});
+    if (request.radius != 0)
+        fields.push_back({"radius", value_text(request.radius)});
     fields.insert(fields.end(), request.settings.begin(), request.settings.end());
     Problems found = assign_fields(region, fields);
     if (found.empty() && region.name != request.region)

@@ -182,7 +182,7 @@ TEST_F(Commands, SlodctlsExitCodeSaysWhatBecameOfACommand)
               int(ExitCode::NoServer));
     const Child running(server());
     EXPECT_EQ(control({"roi", "add", "a", "--half-extent", "1,2,3"}), int(ExitCode::Success));
-    EXPECT_EQ(control({"roi", "add", "a"}), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(control({"roi", "add", "a", "--radius", "1"}), int(ExitCode::InvalidArgument));
     EXPECT_EQ(answer.at("result"), "region_exists");
     EXPECT_EQ(control({"roi", "set", "a", "lunch=1"}), int(ExitCode::InvalidArgument));
     EXPECT_EQ(answer.at("field"), "lunch");
@@ -194,6 +194,10 @@ TEST_F(Commands, SlodctlsExitCodeSaysWhatBecameOfACommand)
     EXPECT_EQ(control({"roi", "remove", "b"}), int(ExitCode::NotFound));
     EXPECT_EQ(control({"roi", "remove", "background"}), int(ExitCode::NotPermitted));
     EXPECT_EQ(control({"roi", "resize", "a"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"roi", "add", "c"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"roi", "add", "c", "--centre", "1,2,3"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"roi", "add", "c", "--set", "max_cluster_size=4"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"roi", "add", "c", "--set", "shape=everywhere"}), int(ExitCode::Success));
     EXPECT_EQ(control({"roi"}), int(ExitCode::Usage));
     EXPECT_EQ(control({"set", "gravity.strength=0.5", "gravity.closure=false"}), int(ExitCode::Success));
     EXPECT_EQ(control({"set", "time.step=1"}), int(ExitCode::InvalidArgument));
@@ -216,7 +220,10 @@ TEST_F(Commands, WhatIsMoreThanTheMostTakenAtOnceWaitsItsTurn)
     client::Commander commander(connection.participant());
     ASSERT_TRUE(sees(connection, [&] { return commander.connected(); }));
     for (std::size_t i = 0; i < client::Commander::max_waiting; ++i)
-        commander.send({.kind = "add_roi", .region = "r" + std::to_string(i), .radius = 1});
+        commander.send({.kind = "add_roi",
+                        .region = "r" + std::to_string(i),
+                        .radius = 1,
+                        .settings = {{"shape", "sphere"}}});
     EXPECT_TRUE(test::eventually([&] {
         commander.wait(std::stop_token(), 50ms);
         return commander.waiting() == 0;

@@ -135,6 +135,40 @@ TEST_F(Desk, MoveResizeSetAndRemoveChangeTheRegion)
     EXPECT_EQ(simulation.regions().size(), 1U);
 }
 
+TEST_F(Desk, ANewRegionKeepsTheSizesThatAreNotSaid)
+{
+    Request adding = request("add_roi", "sphere");
+    adding.radius = 2;
+    adding.settings = {{"shape", "sphere"}};
+    ASSERT_EQ(ask(adding).result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(region("sphere")->radius, 2);
+    EXPECT_EQ(region("sphere")->half_extent, RegionOfInterest().half_extent);
+    adding = request("add_roi", "box");
+    adding.settings = {{"shape", "box"}};
+    ASSERT_EQ(ask(adding).result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(region("box")->half_extent, RegionOfInterest().half_extent);
+    EXPECT_EQ(region("box")->radius, RegionOfInterest().radius);
+}
+
+TEST_F(Desk, ANewRegionThatSaysNotWhatItHoldsIsRefused)
+{
+    const auto refused = [&](const Vector3d& centre, double radius, std::vector<Assignment> settings) {
+        Request adding = request("add_roi", "new" + std::to_string(number));
+        adding.centre = centre;
+        adding.radius = radius;
+        adding.settings = std::move(settings);
+        const Answer answer = ask(adding);
+        EXPECT_TRUE(answer.result == slod_v1_RESULT_APPLIED || answer.field == "shape") << answer.text;
+        return answer.result != slod_v1_RESULT_APPLIED;
+    };
+    EXPECT_TRUE(refused({0, 0, 0}, 0, {}));
+    EXPECT_TRUE(refused({0, 0, 0}, 0, {{"max_cluster_size", "4"}}));
+    EXPECT_TRUE(refused({1, 0, 0}, 0, {{"least_speed", "1"}}));
+    EXPECT_TRUE(refused({0, 0, 0}, 1, {}));
+    EXPECT_FALSE(refused({0, 0, 0}, 0, {{"shape", "everywhere"}}));
+    EXPECT_FALSE(refused({0, 0, 0}, 0, {{"least_speed", "1"}}));
+}
+
 // Neither leaves the region what it was, nor makes one that holds nothing.
 TEST_F(Desk, ARegionIsResizedByTheSizeOfItsShapeAlone)
 {
