@@ -11,6 +11,9 @@ constexpr std::chrono::milliseconds retry_period{300};
 
 constexpr int answers_per_poll = 256;
 
+/// The bound of Command.settings.
+constexpr std::size_t max_settings = 64;
+
 slod_v1_Vector message_of(const std::array<double, 3>& vector)
 {
     return {vector[0], vector[1], vector[2]};
@@ -37,6 +40,9 @@ std::string problem(const CommandRequest& request)
 {
     if (request.region.size() > capacity<decltype(wire::Command::region)>())
         return "region = " + request.region + " is no name; use 1 to 32 of a-z, 0-9, _ and -";
+    if (request.settings.size() > max_settings)
+        return std::to_string(request.settings.size()) +
+               " settings are too many for one command; use at most " + std::to_string(max_settings);
     for (const auto& [setting, value] : request.settings) {
         if (setting.size() > capacity<decltype(wire::Assignment::setting)>())
             return setting + " is no setting: it is longer than any";

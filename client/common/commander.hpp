@@ -27,7 +27,7 @@ struct CommandRequest {
     std::vector<std::pair<std::string, std::string>> settings{}; ///< setting and value, as in a scene file
 };
 
-/// What is too long for the wire, in a sentence; empty when nothing is.
+/// What is too long or too much for the wire, in a sentence; empty when nothing is.
 std::string problem(const CommandRequest& request);
 
 /// What the server said to it, as in CommandReply.

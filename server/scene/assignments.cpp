@@ -11,6 +11,25 @@ namespace slod {
 
 namespace {
 
+/// Nobody reads on after so many, and whoever sends nonsense shall not make the list long.
+constexpr std::size_t most_problems = 8;
+
+/// Assigns one after the other to a copy; `assign_one` adds what is wrong to the problems.
+template <class Settings, class AssignOne>
+Problems assign_all(Settings& settings, std::span<const Assignment> assignments, const AssignOne& assign_one)
+{
+    Settings changed = settings;
+    Problems found;
+    for (const Assignment& assignment : assignments) {
+        assign_one(changed, assignment, found);
+        if (found.size() == most_problems)
+            break;
+    }
+    if (found.empty())
+        settings = changed;
+    return found;
+}
+
 /// A value that was read, or what is wrong with it, to follow the key.
 template <class Target>
 Complaint take(Target& target, const Field& field, const Assignment& assignment)
@@ -96,24 +115,15 @@ void assign_setting(SimulationSettings& settings, const Assignment& assignment, 
 
 Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments)
 {
-    RegionOfInterest changed = region;
-    Problems found;
-    for (const Assignment& assignment : assignments)
-        assign_field(changed, assignment.key, assignment, found);
-    if (found.empty())
-        region = changed;
-    return found;
+    return assign_all(region, assignments,
+                      [](RegionOfInterest& changed, const Assignment& assignment, Problems& found) {
+                          assign_field(changed, assignment.key, assignment, found);
+                      });
 }
 
 Problems assign_fields(SimulationSettings& settings, std::span<const Assignment> assignments)
 {
-    SimulationSettings changed = settings;
-    Problems found;
-    for (const Assignment& assignment : assignments)
-        assign_setting(changed, assignment, found);
-    if (found.empty())
-        settings = changed;
-    return found;
+    return assign_all(settings, assignments, assign_setting);
 }
 
 std::vector<Assignment> fields_of(const RegionOfInterest& region)

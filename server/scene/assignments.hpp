@@ -18,7 +18,8 @@ struct Assignment {
 };
 
 /// Gives fields of a region their values, by the keys of [[region]], in order. Nothing changes unless all are
-/// right by themselves; what is wrong with the region as a whole is problems(RegionOfInterest)'s to say.
+/// right by themselves, of which the first eight problems are told; what is wrong with the region as a whole
+/// is problems(RegionOfInterest)'s to say.
 Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments);
 
 /// Likewise settings of the simulation by "table.key"; [[tables]] cannot be reached.

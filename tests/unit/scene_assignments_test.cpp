@@ -66,6 +66,19 @@ TEST(SceneAssignments, NothingChangesUnlessAllAreRight)
     }
 }
 
+TEST(SceneAssignments, TheFirstEightProblemsAreTold)
+{
+    Assignments wanted;
+    for (int i = 0; i < 20; ++i)
+        wanted.push_back({"lunch" + std::to_string(i), "1"});
+    RegionOfInterest region = small_box();
+    const Problems found = assign_fields(region, wanted);
+    ASSERT_EQ(found.size(), 8U);
+    EXPECT_TRUE(found.back().starts_with("lunch7 ")) << found.back();
+    SimulationSettings settings;
+    EXPECT_EQ(assign_fields(settings, wanted).size(), 8U);
+}
+
 TEST(SceneAssignments, TheFieldsOfARegionMakeTheSameRegion)
 {
     RegionOfInterest region = small_box();

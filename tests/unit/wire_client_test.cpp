@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/commander.hpp"
 #include "common/frame_assembler.hpp"
 #include "common/server_watch.hpp"
 #include "common/stream_meter.hpp"
@@ -244,6 +245,15 @@ TEST(WireClientMeter, MoreSamplesThanItRemembersAreStillCounted)
     const StreamMeter::Report report = meter.report(start + 1s);
     EXPECT_EQ(report.received, 1000U);
     EXPECT_DOUBLE_EQ(report.rate_hz, 1000);
+}
+
+TEST(WireClientCommander, ACommandWithMoreSettingsThanTheWireTakesIsAProblem)
+{
+    CommandRequest request{.kind = "set"};
+    request.settings.assign(64, {"gravity.strength", "1"});
+    EXPECT_EQ(problem(request), "");
+    request.settings.emplace_back("gravity.strength", "1");
+    EXPECT_NE(problem(request).find("65 settings"), std::string::npos) << problem(request);
 }
 
 } // namespace
