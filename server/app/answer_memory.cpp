@@ -21,12 +21,23 @@ bool AnswerMemory::too_old(const wire::Uuid& client, std::uint64_t number) const
     return known != clients_.end() && number <= known->second.forgotten;
 }
 
-void AnswerMemory::remember(const Answer& answer)
+bool AnswerMemory::has_room(const wire::Uuid& client, Clock::time_point now)
 {
-    if (clients_.size() == max_clients_ && !clients_.contains(answer.client))
-        forget_most_silent();
+    if (clients_.size() < max_clients_ || clients_.contains(client))
+        return true;
+    const auto most_silent =
+        std::min_element(clients_.begin(), clients_.end(),
+                         [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; });
+    if (now - most_silent->second.heard <= longest_silence)
+        return false;
+    clients_.erase(most_silent);
+    return true;
+}
+
+void AnswerMemory::remember(const Answer& answer, Clock::time_point now)
+{
     Client& client = clients_[answer.client];
-    client.used = ++uses_;
+    client.heard = now;
     if (client.answers.size() == answers_per_client) {
         client.forgotten = std::max(client.forgotten, client.answers.front().number);
         client.answers.pop_front();
@@ -34,11 +45,10 @@ void AnswerMemory::remember(const Answer& answer)
     client.answers.push_back(answer);
 }
 
-void AnswerMemory::forget_most_silent()
+void AnswerMemory::renew(const wire::Uuid& client, Clock::time_point now)
 {
-    clients_.erase(std::min_element(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) {
-        return a.second.used < b.second.used;
-    }));
+    if (const auto known = clients_.find(client); known != clients_.end())
+        known->second.heard = now;
 }
 
 } // namespace slod

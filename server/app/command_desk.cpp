@@ -27,6 +27,13 @@ Answer refusal(const Problems& problems)
     return refusal(slod_v1_RESULT_INVALID, first.substr(0, first.find_first_of(" :")), first + more);
 }
 
+Answer addressed(Answer answer, const Request& request)
+{
+    answer.client = request.client;
+    answer.number = request.number;
+    return answer;
+}
+
 /// Whether a new region is told from the whole scene: by a shape, which may be everywhere, or else by a range
 /// of mass, speed or acceleration. A place or size without a shape would go unheard.
 bool says_where(const Request& request)
@@ -87,17 +94,21 @@ Answer CommandDesk::handle(const Request& request, std::uint64_t frame, Clock::t
     frame_ = frame;
     now_ = now;
     leases_.renew(request.client, now);
+    memory_.renew(request.client, now);
     if (const Answer* const before = memory_.find(request.client, request.number))
         return *before;
-    const bool too_old = memory_.too_old(request.client, request.number);
-    Answer answer = too_old ? refusal(slod_v1_RESULT_LIMIT_REACHED, "request",
-                                      "The request is older than the last 64 of its client, whose answers "
-                                      "are remembered; ask anew.")
-                            : decide(request);
-    answer.client = request.client;
-    answer.number = request.number;
-    if (!too_old)
-        memory_.remember(answer);
+    if (memory_.too_old(request.client, request.number))
+        return addressed(refusal(slod_v1_RESULT_LIMIT_REACHED, "request",
+                                 "The request is older than the last 64 of its client, whose answers "
+                                 "are remembered; ask anew."),
+                         request);
+    if (!memory_.has_room(request.client, now))
+        return addressed(refusal(slod_v1_RESULT_LIMIT_REACHED, "client",
+                                 "Too many clients have commanded in the last 10 seconds; ask anew later, or "
+                                 "raise wire.max_commanders."),
+                         request);
+    Answer answer = addressed(decide(request), request);
+    memory_.remember(answer, now);
     return answer;
 }
 

@@ -23,7 +23,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     struct Options {
-        std::size_t max_clients = 256; ///< whose answers are remembered
+        std::size_t max_clients = 256; ///< whose answers are remembered; more are refused for a while
         bool read_only = false;        ///< nothing that changes the outcome is applied: a replay
     };
 

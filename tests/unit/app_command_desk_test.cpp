@@ -113,6 +113,26 @@ TEST_F(Desk, ARequestOlderThanTheRememberedOnesIsNotAppliedAgain)
     EXPECT_FALSE(region("core"));
 }
 
+// The desk remembers four clients.
+TEST_F(Desk, AFifthClientIsRefusedUntilOneWasSilentForARequestsLife)
+{
+    const Request adding = add("core");
+    ask(adding);
+    ask(request("remove_roi", "core"));
+    for (std::uint8_t other = 10; other < 13; ++other)
+        ASSERT_EQ(ask(request("keep_alive", {}, {other})).result, slod_v1_RESULT_APPLIED);
+    now += 10s;
+    const Answer crowded = ask(request("keep_alive", {}, bob));
+    EXPECT_EQ(crowded.result, slod_v1_RESULT_LIMIT_REACHED);
+    EXPECT_EQ(crowded.field, "client");
+    EXPECT_EQ(crowded.client, bob);
+    EXPECT_EQ(crowded.number, number);
+    EXPECT_EQ(ask(adding).result, slod_v1_RESULT_APPLIED) << "as it was answered before";
+    EXPECT_FALSE(region("core"));
+    now += 1s;
+    EXPECT_EQ(ask(request("keep_alive", {}, bob)).result, slod_v1_RESULT_APPLIED);
+}
+
 TEST_F(Desk, MoveResizeSetAndRemoveChangeTheRegion)
 {
     ask(add("core"));
