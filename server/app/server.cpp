@@ -80,6 +80,7 @@ RunSummary Server::run(const std::stop_token& stop)
         }
         wait_for_frame(pacer, summary, stop);
     }
+    steering_->repeat_rest(summary.frames + 1, team_);
 
     summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
     summary.conserved_end = measure_conserved();
@@ -97,6 +98,8 @@ bool Server::ended(const RunSummary& summary, const std::stop_token& stop) const
 
 void Server::wait_for_frame(Pacer& pacer, const RunSummary& summary, const std::stop_token& stop)
 {
+    if (ended(summary, stop))
+        return; // what is answered "applied" would be in force from a frame that never runs
     const std::uint64_t next_frame = summary.frames + 1;
     const Clock::time_point due = free_run_ ? Clock::now() : pacer.next(Clock::now());
     steering_->prepare(next_frame, team_);

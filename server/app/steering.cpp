@@ -35,6 +35,11 @@ void Steering::prepare(std::uint64_t frame, ThreadTeam& team)
     tell();
 }
 
+void Steering::repeat_rest(std::uint64_t frame, ThreadTeam& team)
+{
+    team.run([&] { repeat_log(frame); });
+}
+
 void Steering::repeat_log(std::uint64_t frame)
 {
     for (; repeated_ < replay_.size() && replay_[repeated_].frame <= frame; ++repeated_)

@@ -34,6 +34,10 @@ public:
     /// Makes the changes that `frame`, the next to run, is to have. `team` runs what is parallel in them.
     void prepare(std::uint64_t frame, ThreadTeam& team);
 
+    /// Makes the changes that a log has of `frame`, which did not run: the recorded run was stopped after
+    /// them.
+    void repeat_rest(std::uint64_t frame, ThreadTeam& team);
+
     RunControl& control() { return desk_.control(); }
     const RunControl& control() const { return desk_.control(); }
 

@@ -232,6 +232,39 @@ TEST_F(Commands, WhatIsMoreThanTheMostTakenAtOnceWaitsItsTurn)
         EXPECT_TRUE(reply.applied()) << number << ": " << reply.text;
 }
 
+// Commands come all the time and a frame takes long, so some are there when the last one is done.
+TEST_F(Commands, NothingIsInForceFromAFrameThatNeverRuns)
+{
+    constexpr std::uint64_t frames = 100;
+    Child running(server({"--frames", std::to_string(frames), "--set", "galaxy.particles=20000"}));
+    client::Connection connection = connect({});
+    client::Commander commander(connection.participant());
+    ASSERT_TRUE(sees(connection, [&] { return commander.connected(); })) << running.errors();
+    std::uint64_t newest = 0;
+    const auto go_on = [&] {
+        while (commander.connected() && commander.waiting() < client::Commander::max_waiting)
+            commander.send({.kind = "keep_alive"});
+        commander.wait(std::stop_token(), 1ms);
+        for (const auto& [number, reply] : commander.take_answers())
+            newest = std::max(newest, reply.applied_frame);
+        return !commander.connected();
+    };
+    ASSERT_TRUE(test::eventually(go_on)) << "the server did not end";
+    EXPECT_EQ(running.wait(), 0);
+    EXPECT_GT(newest, 1U);
+    EXPECT_LE(newest, frames);
+}
+
+TEST_F(Commands, AReplayHasWhatWasChangedBeforeThePauseThatWasTheEnd)
+{
+    Child running(server());
+    ASSERT_EQ(control({"pause"}), 0);
+    ASSERT_EQ(control({"roi", "add", "late", "--radius", "1"}), 0);
+    ASSERT_EQ(control({"stop"}), 0);
+    EXPECT_EQ(running.wait(), 0);
+    EXPECT_EQ(replay(), 0);
+}
+
 /// One of many who command at once: its next request, one after the other over all kinds that change regions.
 CommandRequest next_request(const std::string& own, int index)
 {
