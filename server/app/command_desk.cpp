@@ -50,19 +50,15 @@ bool says_where(const Request& request)
            }));
 }
 
-/// What a region looks like to a view; none where the view is no view.
-std::optional<RegionOfInterest> following(const RegionOfInterest& region, const ClientView& view)
+/// What a region looks like to a view.
+RegionOfInterest following(const RegionOfInterest& region, const ClientView& view)
 {
     RegionOfInterest moved = region;
-    const Vector3d direction = view.look_at - view.eye;
-    const std::vector<Assignment> fields{
-        {"centre", value_text(view.eye)},
-        {"direction", value_text(direction)},
-        {"up", value_text(view.up)},
-        {"field_of_view", value_text(std::min(view.field_of_view_deg * region.view_share, 179.0))},
-        {"aspect", value_text(view.aspect)}};
-    if (!assign_fields(moved, fields).empty())
-        return {};
+    moved.centre = view.eye;
+    moved.direction = view.look_at - view.eye;
+    moved.up = view.up;
+    moved.field_of_view_deg = std::min(view.field_of_view_deg * region.view_share, 179.0);
+    moved.aspect = view.aspect;
     return moved;
 }
 
@@ -298,18 +294,24 @@ Answer CommandDesk::remove_roi(const Request& request)
     return found.empty() ? applied(request) : refusal(found);
 }
 
-void CommandDesk::follow(const ClientView& view, std::uint64_t frame, Clock::time_point now)
+void CommandDesk::see(const ClientView& view, Clock::time_point now)
 {
     leases_.renew(view.client, now);
-    if (read_only_ || view.client_name.empty())
-        return;
-    std::vector<RegionOfInterest> moved;
-    for (const auto& [name, record] : editor_.records())
-        if (record.settings.shape == Shape::Frustum && record.settings.follows == view.client_name)
-            if (auto region = following(record.settings, view); region && problems(*region).empty())
-                moved.push_back(*std::move(region));
-    for (const RegionOfInterest& region : moved)
-        static_cast<void>(editor_.change(region, frame)); // what else could be wrong was so before
+    if (!read_only_ && !view.client_name.empty())
+        views_[view.client] = view;
+}
+
+void CommandDesk::follow_views(std::uint64_t frame)
+{
+    for (const auto& [client, view] : std::exchange(views_, {})) {
+        std::vector<RegionOfInterest> moved;
+        for (const auto& [name, record] : editor_.records())
+            if (record.settings.shape == Shape::Frustum && record.settings.follows == view.client_name)
+                moved.push_back(following(record.settings, view));
+        for (const RegionOfInterest& region : moved)
+            if (problems(region).empty())
+                static_cast<void>(editor_.change(region, frame)); // what else could be wrong was so before
+    }
 }
 
 void CommandDesk::expire_leases(std::uint64_t frame, Clock::time_point now)

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,8 +35,12 @@ public:
     /// Applies a request unless it was before, and answers it. `frame` is the first that will have it.
     Answer handle(const Request& request, std::uint64_t frame, Clock::time_point now);
 
-    /// Moves the frustum regions that follow the view. A view that no frustum can have moves none.
-    void follow(const ClientView& view, std::uint64_t frame, Clock::time_point now);
+    /// Keeps the view until the next frame, in place of the client's last.
+    void see(const ClientView& view, Clock::time_point now);
+
+    /// Moves the frustum regions that follow the views which came. A view that no frustum can have moves
+    /// none.
+    void follow_views(std::uint64_t frame);
 
     /// Removes the regions whose owners have been silent for longer than their lease.
     void expire_leases(std::uint64_t frame, Clock::time_point now);
@@ -71,6 +76,7 @@ private:
     RunControl control_;
     AnswerMemory memory_;
     Leases leases_;
+    std::map<wire::Uuid, ClientView> views_; ///< by client, since the last frame
     bool read_only_;
     std::uint64_t frame_ = 0; ///< of the request in hand
     Clock::time_point now_{}; ///< likewise

@@ -75,6 +75,7 @@ RunSummary Server::run(const std::stop_token& stop)
     steering_->prepare(1, team_);
     while (!ended(summary, stop)) {
         if (steering_->control().may_run()) {
+            steering_->follow_views(summary.frames + 1, team_);
             run_frame(meter, summary);
             steering_->control().count_frame();
         }

@@ -26,13 +26,25 @@ void Steering::prepare(std::uint64_t frame, ThreadTeam& team)
             take_commands(frame);
         desk_.expire_leases(frame, CommandDesk::Clock::now());
     });
+    record_changes();
+    tell();
+}
+
+void Steering::follow_views(std::uint64_t frame, ThreadTeam& team)
+{
+    team.run([&] { desk_.follow_views(frame); });
+    record_changes();
+    tell();
+}
+
+void Steering::record_changes()
+{
     for (const LoggedCommand& command : desk_.editor().take_log()) {
         spdlog::debug("changed frame={} {} region={}", command.frame,
                       names(command.kind)[std::size_t(command.kind)], command.region);
         if (record_)
             record_(command);
     }
-    tell();
 }
 
 void Steering::repeat_rest(std::uint64_t frame, ThreadTeam& team)
@@ -54,7 +66,7 @@ void Steering::take_commands(std::uint64_t frame)
     for (const Request& request : inbox_->take_requests(std::min(max_commands_, publisher_->answer_room())))
         answers_.push_back(desk_.handle(request, frame, now));
     for (const ClientView& view : inbox_->take_views())
-        desk_.follow(view, frame, now);
+        desk_.see(view, now);
 }
 
 void Steering::tell()

@@ -34,6 +34,10 @@ public:
     /// Makes the changes that `frame`, the next to run, is to have. `team` runs what is parallel in them.
     void prepare(std::uint64_t frame, ThreadTeam& team);
 
+    /// Moves what follows clients' views, right before `frame` runs: however often commands are looked for,
+    /// and however long the loop pauses, a view makes one change.
+    void follow_views(std::uint64_t frame, ThreadTeam& team);
+
     /// Makes the changes that a log has of `frame`, which did not run: the recorded run was stopped after
     /// them.
     void repeat_rest(std::uint64_t frame, ThreadTeam& team);
@@ -44,6 +48,7 @@ public:
 private:
     void repeat_log(std::uint64_t frame);
     void take_commands(std::uint64_t frame);
+    void record_changes();
     void tell();
 
     Publisher* publisher_;

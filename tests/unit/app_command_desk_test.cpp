@@ -64,6 +64,13 @@ protected:
         return moving;
     }
 
+    /// One view before the next frame.
+    void show(const ClientView& view)
+    {
+        desk.see(view, now);
+        desk.follow_views(frame);
+    }
+
     const RegionOfInterest* region(const std::string& name)
     {
         const RegionRecord* const record = desk.editor().find(name);
@@ -381,7 +388,7 @@ TEST_F(Desk, AViewMovesTheFrustumsThatFollowItsClient)
                           .up = {1, 0, 0},
                           .field_of_view_deg = 40,
                           .aspect = 2};
-    desk.follow(view, frame, now);
+    show(view);
     EXPECT_EQ(region("centre")->centre, view.eye);
     EXPECT_EQ(region("centre")->direction, Vector3d(0, 0, -6));
     EXPECT_EQ(region("centre")->up, view.up);
@@ -392,7 +399,7 @@ TEST_F(Desk, AViewMovesTheFrustumsThatFollowItsClient)
     EXPECT_EQ(region("box")->centre, Vector3d(0, 0, 0));
 
     desk.editor().take_log();
-    desk.follow(view, frame, now);
+    show(view);
     EXPECT_TRUE(desk.editor().take_log().empty()) << "nothing moved";
     ClientView other = view;
     other.client_name = "another";
@@ -402,8 +409,29 @@ TEST_F(Desk, AViewMovesTheFrustumsThatFollowItsClient)
     ClientView broken = view;
     broken.field_of_view_deg = std::numeric_limits<double>::quiet_NaN();
     for (const ClientView& useless : {other, blind, broken})
-        desk.follow(useless, frame, now);
+        show(useless);
     EXPECT_TRUE(desk.editor().take_log().empty());
+}
+
+TEST_F(Desk, OfAClientsViewsTheNewestMovesTheFrustumOnceAFrame)
+{
+    Request adding = request("add_roi", "seen");
+    adding.settings = {{"shape", "frustum"}, {"follows", "desk"}};
+    ask(adding);
+    desk.editor().take_log();
+    ClientView view{.client = bob, .client_name = "desk"};
+    for (int i = 1; i <= 5; ++i) {
+        view.eye.y() = i;
+        desk.see(view, now);
+    }
+    EXPECT_TRUE(desk.editor().take_log().empty()) << "no frame is to run yet";
+    desk.follow_views(frame);
+    EXPECT_EQ(desk.editor().take_log().size(), 1U);
+    EXPECT_EQ(region("seen")->centre.y(), 5);
+    Request away = move("seen", {9, 9, 9});
+    ask(away);
+    desk.follow_views(frame + 1);
+    EXPECT_EQ(region("seen")->centre, Vector3d(9, 9, 9)) << "a view moves nothing twice";
 }
 
 TEST_F(Desk, WhatWasDoneCanBeRepeatedFromTheLog)
