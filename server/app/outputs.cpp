@@ -1,8 +1,10 @@
 #include "app/outputs.hpp"
 
 #include <cstdio>
+#include <system_error>
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include "app/picture.hpp"
 #include "app/report.hpp"
@@ -33,8 +35,17 @@ Outputs::Outputs(const CommandLine& line, const InputLogHeader& origin)
 
 void Outputs::record(const LoggedCommand& command)
 {
-    if (input_log_)
+    if (!input_log_)
+        return;
+    try {
         input_log_->record(command);
+    } catch (const std::system_error& error) {
+        spdlog::error(
+            "{}; the run goes on, but cannot be repeated from frame {} on: make room and start anew "
+            "to have a whole log",
+            error.what(), command.frame);
+        input_log_.reset();
+    }
 }
 
 void Outputs::write(const Job& job, const Server& server, const RunSummary& summary)

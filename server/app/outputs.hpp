@@ -18,7 +18,8 @@ public:
     /// Throws std::system_error, naming the place.
     Outputs(const CommandLine& line, const InputLogHeader& origin);
 
-    /// Adds a change to the input log, if there is one. Throws std::system_error.
+    /// Adds a change to the input log, if there is one. When that fails the log ends there, without a last
+    /// line, and the run goes on.
     void record(const LoggedCommand& command);
 
     /// Throws std::system_error.

@@ -1,12 +1,16 @@
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "app/input_log.hpp"
+#include "app/outputs.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace slod {
@@ -148,6 +152,45 @@ TEST(ContentHash, CoversEveryFieldAndTheOrder)
         changes[change](changed);
         EXPECT_NE(content_hash(changed), before) << "change " << change;
     }
+}
+
+/// Lets no file of this process grow beyond `bytes`, as a full disk would not.
+class FullDisk {
+public:
+    explicit FullDisk(std::uintmax_t bytes)
+    {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        rlimit limit = before_;
+        limit.rlim_cur = bytes;
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FullDisk()
+    {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+private:
+    void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before_{};
+};
+
+TEST_F(InputLogTest, EndsWhereItCannotBeWrittenAndTheRunGoesOn)
+{
+    CommandLine line;
+    line.output_folder = folder_;
+    Outputs outputs(line, header_);
+    outputs.record(change_);
+    {
+        const FullDisk disk(std::filesystem::file_size(file_));
+        EXPECT_NO_THROW(outputs.record(change_));
+    }
+    EXPECT_NO_THROW(outputs.record(change_));
+    const InputLog log = read();
+    EXPECT_EQ(log.commands, std::vector{change_});
+    EXPECT_FALSE(log.end);
 }
 
 } // namespace
