@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <fstream>
 #include <memory>
+#include <set>
 #include <signal.h>
+#include <thread>
 
 #include "idl/dds.hpp"
 
@@ -212,24 +214,37 @@ TEST_F(Commands, AServerThatTakesNoCommandsMakesThemTimeOut)
               int(ExitCode::TimedOut));
 }
 
-// One command is taken at a time; of those that come together the others are still there the next time.
+// One command is taken at a time; of those that come together, each once, the others are still there the next
+// time.
 TEST_F(Commands, WhatIsMoreThanTheMostTakenAtOnceWaitsItsTurn)
 {
+    constexpr std::uint64_t count = 8;
     const Child running(server({"--set", "wire.max_commands=1"}));
     client::Connection connection = connect({});
-    client::Commander commander(connection.participant());
-    ASSERT_TRUE(sees(connection, [&] { return commander.connected(); }));
-    for (std::size_t i = 0; i < client::Commander::max_waiting; ++i)
-        commander.send({.kind = "add_roi",
-                        .region = "r" + std::to_string(i),
-                        .radius = 1,
-                        .settings = {{"shape", "sphere"}}});
-    EXPECT_TRUE(test::eventually([&] {
-        commander.wait(std::stop_token(), 50ms);
-        return commander.waiting() == 0;
+    wire::Writer<wire::Command> writer(connection.participant());
+    wire::Reader<wire::CommandReply> reader(connection.participant());
+    ASSERT_TRUE(sees(connection, [&] { return writer.matched() && reader.matched(); }));
+    wire::Command command{};
+    wire::set(command.client, wire::new_uuid());
+    wire::set(command.kind, "keep_alive");
+    std::set<std::uint64_t> answered;
+    const auto answers = [&] {
+        reader.take_each(100, [&](const wire::CommandReply& reply, const dds_sample_info_t& info) {
+            if (info.valid_data && wire::uuid_of(reply.client) == wire::uuid_of(command.client))
+                answered.insert(reply.request);
+        });
+        return answered.size();
+    };
+    ASSERT_TRUE(test::eventually([&] { // until both ends know each other
+        std::this_thread::sleep_for(10ms);
+        return writer.write(command) && answers() == 1;
     }));
-    for (const auto& [number, reply] : commander.take_answers())
-        EXPECT_TRUE(reply.applied()) << number << ": " << reply.text;
+    while (command.request < count) {
+        ++command.request;
+        ASSERT_TRUE(writer.write(command));
+    }
+    EXPECT_TRUE(test::eventually([&] { return answers() == 1 + count; }))
+        << answered.size() - 1 << " are answered";
 }
 
 // Commands come all the time and a frame takes long, so some are there when the last one is done.
