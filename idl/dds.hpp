@@ -116,6 +116,13 @@ public:
         return dds_dispose(endpoint_.end.handle(), &message) == DDS_RETCODE_OK;
     }
 
+    /// Likewise, and forgets the instance, which otherwise takes memory as long as the writer lives.
+    [[nodiscard]] bool forget(const Message& message)
+    {
+        return dispose(message) &&
+               dds_unregister_instance(endpoint_.end.handle(), &message) == DDS_RETCODE_OK;
+    }
+
     /// Whether any reader is there. Any thread may ask.
     bool matched() const
     {

@@ -54,6 +54,14 @@ public:
             ++counters_.samples_refused;
     }
 
+    /// Disposes for good: no instance stays in memory.
+    template <class Message>
+    void forget(wire::Writer<Message>& writer, const Message& message)
+    {
+        if (!writer.forget(message))
+            ++counters_.samples_refused;
+    }
+
     PublishCounters& counters() { return counters_; }
     std::uint64_t largest_sample() const { return largest_sample_; } ///< bytes
 

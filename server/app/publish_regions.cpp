@@ -99,9 +99,15 @@ void PublishedRegions::close(const std::string& name, const RegionRecord& record
         if (by_row_[region.row] == &region)
             by_row_[region.row] = nullptr;
         own_partitions_ -= region.own_writer ? 1 : 0;
+        if (!region.own_writer) {
+            wire::Clusters gone{};
+            wire::set(gone.session, session_);
+            wire::set(gone.region, name);
+            outlet_.forget(*shared_writer_, gone);
+        }
         regions_.erase(found);
     }
-    outlet_.dispose(state_writer_, encoder_.encode(record, {}, {}));
+    outlet_.forget(state_writer_, encoder_.encode(record, {}, {}));
 }
 
 void PublishedRegions::update(const RegionRecord& record)

@@ -103,6 +103,20 @@ void PublishedTopics::publish(const Answer& answer)
     reply.applied_frame = answer.applied_frame;
     reply.revision = answer.revision;
     outlet_.send(reply_writer_, reply);
+    answered_[answer.client] = Clock::now();
+}
+
+void PublishedTopics::forget_silent_clients()
+{
+    const Clock::time_point stale = Clock::now() - wire::topic<wire::CommandReply>().delivery.lifespan;
+    std::erase_if(answered_, [&](const auto& answered) {
+        if (answered.second >= stale)
+            return false;
+        wire::CommandReply gone{};
+        wire::set(gone.client, answered.first);
+        outlet_.forget(reply_writer_, gone);
+        return true;
+    });
 }
 
 void PublishedTopics::publish_state()

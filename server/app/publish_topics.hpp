@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 
 #include "app/publish_outlet.hpp"
 #include "app/publish_picture.hpp"
@@ -48,6 +49,9 @@ public:
     /// What the sign of life says from the next on.
     void set_paused(bool paused) { state_encoder_.set_paused(paused); }
 
+    /// Forgets the instances of clients whose answers have all gone stale.
+    void forget_silent_clients();
+
     /// Tells the clients that the server goes.
     void take_leave();
 
@@ -62,6 +66,7 @@ private:
     PublishedRegions regions_;
     RateLimit region_counts_rate_;
     wire::Writer<wire::CommandReply> reply_writer_;
+    std::map<wire::Uuid, std::chrono::steady_clock::time_point> answered_; ///< clients, when last
     ManifestEncoder manifest_encoder_;
     wire::Writer<wire::FrameManifest> manifest_writer_;
     OverviewEncoder overview_encoder_;

@@ -63,6 +63,7 @@ void Publisher::Impl::run(const std::stop_token& stop)
         topics.look_for_readers();
         if (Clock::now() >= next_heartbeat) {
             topics.publish_state();
+            topics.forget_silent_clients();
             next_heartbeat = Clock::now() + heartbeat_period;
         }
     }

@@ -247,6 +247,38 @@ TEST_F(Commands, WhatIsMoreThanTheMostTakenAtOnceWaitsItsTurn)
         << answered.size() - 1 << " are answered";
 }
 
+// As long as an answer lives, and no longer, the server keeps its instance for the client.
+TEST_F(Commands, AnswersToAClientThatIsSilentAreForgotten)
+{
+    const Child running(server());
+    client::Connection connection = connect({});
+    wire::Writer<wire::Command> writer(connection.participant());
+    wire::Reader<wire::CommandReply> reader(connection.participant());
+    wire::Command command{};
+    wire::set(command.client, wire::new_uuid());
+    command.request = 1;
+    wire::set(command.kind, "keep_alive");
+    bool answered = false, gone = false;
+    const auto look = [&] {
+        std::this_thread::sleep_for(10ms);
+        reader.take_each(100, [&](const wire::CommandReply& reply, const dds_sample_info_t& info) {
+            if (wire::uuid_of(reply.client) != wire::uuid_of(command.client))
+                return;
+            answered = answered || info.valid_data;
+            gone = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
+        });
+    };
+    ASSERT_TRUE(test::eventually([&] { // until both ends know each other
+        look();
+        return writer.write(command) && answered;
+    }));
+    EXPECT_FALSE(gone);
+    EXPECT_TRUE(test::eventually([&] {
+        look();
+        return gone;
+    }));
+}
+
 // Commands come all the time and a frame takes long, so some are there when the last one is done.
 TEST_F(Commands, NothingIsInForceFromAFrameThatNeverRuns)
 {
