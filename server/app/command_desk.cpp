@@ -27,6 +27,12 @@ Answer refusal(const Problems& problems)
     return refusal(slod_v1_RESULT_INVALID, first.substr(0, first.find_first_of(" :")), first + more);
 }
 
+Answer no_revision()
+{
+    return refusal(slod_v1_RESULT_INVALID, "if_revision",
+                   "What the command is about has no revision; use 0.");
+}
+
 Answer addressed(Answer answer, const Request& request)
 {
     answer.client = request.client;
@@ -68,6 +74,7 @@ struct CommandDesk::Kind {
     std::string_view name;
     Answer (CommandDesk::*decide)(const Request& request);
     bool changes_outcome;
+    bool reads_revision = false;
 };
 
 const std::array<CommandDesk::Kind, 12> CommandDesk::kinds{{
@@ -76,12 +83,12 @@ const std::array<CommandDesk::Kind, 12> CommandDesk::kinds{{
     {"step", &CommandDesk::step, false},
     {"stop", &CommandDesk::stop, false},
     {"keep_alive", &CommandDesk::keep_alive, false},
-    {"set", &CommandDesk::set, true},
+    {"set", &CommandDesk::set, true, true},
     {"add_roi", &CommandDesk::add_roi, true},
-    {"move_roi", &CommandDesk::move_roi, true},
-    {"resize_roi", &CommandDesk::resize_roi, true},
-    {"set_roi", &CommandDesk::set_roi, true},
-    {"remove_roi", &CommandDesk::remove_roi, true},
+    {"move_roi", &CommandDesk::move_roi, true, true},
+    {"resize_roi", &CommandDesk::resize_roi, true, true},
+    {"set_roi", &CommandDesk::set_roi, true, true},
+    {"remove_roi", &CommandDesk::remove_roi, true, true},
     {"checkpoint", &CommandDesk::checkpoint, false},
 }};
 
@@ -117,6 +124,8 @@ Answer CommandDesk::decide(const Request& request)
     if (read_only_ && kind->changes_outcome)
         return refusal(slod_v1_RESULT_NOT_PERMITTED, "kind",
                        "The server repeats a recorded run, which nothing may change; start another.");
+    if (request.if_revision != 0 && !kind->reads_revision)
+        return no_revision();
     return (this->*kind->decide)(request);
 }
 
@@ -168,9 +177,16 @@ Answer CommandDesk::set(const Request& request)
 {
     if (request.settings.empty())
         return refusal(slod_v1_RESULT_INVALID, "settings", "Nothing is set; name a table.key and a value.");
+    Request asked = request;
+    asked.region = are_of_background(request.settings) ? background_name : std::string_view();
+    if (asked.region.empty() && request.if_revision != 0)
+        return no_revision();
+    if (!asked.region.empty())
+        if (auto answer = objection(asked))
+            return *answer;
     if (const Problems found = editor_.set(request.settings, frame_); !found.empty())
         return refusal(found);
-    return applied(request);
+    return applied(asked);
 }
 
 Answer CommandDesk::add_roi(const Request& request)

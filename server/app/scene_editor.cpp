@@ -16,6 +16,11 @@ bool of_background(const Assignment& assignment)
 
 } // namespace
 
+bool are_of_background(const std::vector<Assignment>& settings)
+{
+    return std::all_of(settings.begin(), settings.end(), of_background);
+}
+
 SceneEditor::SceneEditor(Simulation& simulation) : simulation_(simulation)
 {
     for (const Simulation::Region& region : simulation.regions()) {

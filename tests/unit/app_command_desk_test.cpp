@@ -237,6 +237,36 @@ TEST_F(Desk, AStaleRevisionIsRefused)
     EXPECT_EQ(region("core")->centre, Vector3d(1, 0, 0));
 }
 
+TEST_F(Desk, TheBackgroundsRevisionIsHonouredAndAnsweredHoweverItIsSet)
+{
+    Request set = request("set");
+    set.settings = {{"background.max_cluster_size", "4"}};
+    const Answer first = ask(set);
+    EXPECT_EQ(first.revision, desk.editor().find("background")->revision);
+    set.number = ++number;
+    set.settings = {{"background.max_cluster_size", "8"}};
+    set.if_revision = first.revision - 1;
+    EXPECT_EQ(ask(set).result, slod_v1_RESULT_STALE_REVISION);
+    EXPECT_EQ(region("background")->partition.max_cluster_size, 4);
+    set.number = ++number;
+    set.if_revision = first.revision;
+    EXPECT_GT(ask(set).revision, first.revision);
+}
+
+TEST_F(Desk, ARevisionIsRefusedWhereNothingHasOne)
+{
+    Request set = request("set");
+    set.settings = {{"gravity.strength", "0.5"}};
+    for (Request asked : {add("core"), request("pause"), request("keep_alive"), set}) {
+        asked.if_revision = 1;
+        const Answer answer = ask(asked);
+        EXPECT_EQ(answer.result, slod_v1_RESULT_INVALID) << asked.kind;
+        EXPECT_EQ(answer.field, "if_revision") << asked.kind;
+    }
+    EXPECT_FALSE(desk.control().paused());
+    EXPECT_FALSE(region("core"));
+}
+
 TEST_F(Desk, ARevisionNeverComesAgainUnderTheSameName)
 {
     const std::uint64_t first = ask(add("core")).revision;
