@@ -1,6 +1,5 @@
 #include "scene/assignments.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <string_view>
 
@@ -14,12 +13,6 @@ namespace {
 
 /// Nobody reads on after so many, and whoever sends nonsense shall not make the list long.
 constexpr std::size_t most_problems = 8;
-
-/// What would break lines or steer a terminal where it is printed.
-bool has_control_characters(std::string_view text)
-{
-    return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-}
 
 /// Assigns one after the other to a copy; `assign_one` adds what is wrong to the problems.
 template <class Settings, class AssignOne>
@@ -125,8 +118,6 @@ Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> ass
     return assign_all(region, assignments,
                       [](RegionOfInterest& changed, const Assignment& assignment, Problems& found) {
                           assign_field(changed, assignment.key, assignment, found);
-                          if (assignment.key == "follows" && has_control_characters(changed.follows))
-                              found.push_back("follows has control characters; use a client's name.");
                       });
 }
 

@@ -1,5 +1,6 @@
 #include "tree/region.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -224,6 +225,10 @@ Problems problems(const RegionOfInterest& region)
     if (region.follows.size() > longest_client_name)
         found.push_back("follows is longer than " + std::to_string(longest_client_name) +
                         " characters; use a client's name.");
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::any_of(region.follows.begin(), region.follows.end(),
+                    is_control)) // it comes to terminals and logs
+        found.push_back("follows has control characters; use a client's name.");
     const auto check = [&](std::string_view quantity, double least, double most) {
         if (least >= most)
             found.push_back("least_" + std::string(quantity) + " is not below most_" + std::string(quantity) +

@@ -60,6 +60,18 @@ TEST(RegionTest, MissesAndCoversWhatItContainsNothingOrAllOf)
     EXPECT_GT(covered, 20U);
 }
 
+TEST(RegionOfInterest, FollowsClientsWhoseNamesCanBePrinted)
+{
+    RegionOfInterest region;
+    region.follows = "viewer 2, \xc3\xa4";
+    EXPECT_EQ(problems(region), Problems{});
+    for (const std::string name : {"a\x1b[2J", "a\nb", "\x7f"}) {
+        region.follows = name;
+        ASSERT_EQ(problems(region).size(), 1U);
+        EXPECT_EQ(problems(region)[0].find("follows"), 0U);
+    }
+}
+
 /// Sets the `wanted`-th of a region's numbers to one end of its range; false when there is none.
 struct Extreme {
     int wanted;

@@ -147,6 +147,7 @@ Scene random_scene(std::uint64_t seed)
     simulation.sharing.overlap = true;
     for (RegionOfInterest& region : simulation.regions) {
         region.direction = {0, 0.5, -1};
+        region.follows = "viewer";
         region.up = {0, 3, 0};
         put_in_order(region.near_distance, region.far_distance);
         put_in_order(region.least_mass, region.most_mass);
