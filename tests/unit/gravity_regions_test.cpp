@@ -26,7 +26,8 @@ protected:
     {
         AttractingWorld world(regions);
         world.settings.direct_below = GetParam() ? 0 : 1'000'000;
-        world.view.regions[1].attracts = second;
+        if (world.view.regions.size() > 1) // a region that holds nothing is not in the view
+            world.view.regions[1].attracts = second;
         world.evaluate();
         counts = world.evaluate(); // by the pulls of the first
         return world;

@@ -82,7 +82,7 @@ TEST(SceneAssignments, TheFirstEightProblemsAreTold)
 TEST(SceneAssignments, TheFieldsOfARegionMakeTheSameRegion)
 {
     RegionOfInterest region = small_box();
-    region.centre = {0.1, -1e300, 1.0 / 3};
+    region.centre = {0.1, -1e30, 1.0 / 3};
     region.precedence = -1'000'000'000;
     region.follows = "a \"b\" = [c]\\";
     region.least_speed = 1e-300;
