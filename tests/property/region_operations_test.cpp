@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -172,6 +173,11 @@ struct Trial {
     const char* scene;
     std::uint64_t seeds, operations;
 };
+
+void PrintTo(const Trial& trial, std::ostream* out)
+{
+    *out << trial.scene;
+}
 
 class RegionOperations : public testing::TestWithParam<Trial> {
 protected:
