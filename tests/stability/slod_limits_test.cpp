@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/clouds.hpp"
+#include "support/random_regions.hpp"
 #include "support/rigid_scenes.hpp"
 #include "support/rigid_world.hpp"
 
@@ -142,6 +143,29 @@ TEST(SlodStability, S25_OneClusterOfAllMovesAsTheMeanOfAllInUniformGravity)
 TEST(SlodStability, S26_LinearDragActsOnTheCentreAsOnTheMean)
 {
     EXPECT_LE(centre_error(windy(1e6), 300, 1000), 1e-9);
+}
+
+// From leaf to leaf, cell to cell, onto the very faces and out of the grid, where both find nothing.
+TEST(SlodStability, S27_BottomUpFindsWhatTopDownFindsHoweverFarTheMove)
+{
+    const RigidRules rules{
+        .background = {.max_cluster_size = 1, .pool_factor = 16}, .regions = {}, .cell_side = 4};
+    RigidWorld world(rules, cube(20'000, 7.9, 1, {8, 8, 8}));
+    const Subtree& tree = world.tree().subtrees.front();
+    Random random(27, 0, 0);
+    std::size_t outside = 0;
+    for (int move = 0; move < 1'000'000; ++move) {
+        const PoolId start = locate(tree, Vector3d(Vector3d(8, 8, 8) + random_point(random, 7.9)));
+        ASSERT_TRUE(start.valid());
+        const Box& leaf = tree.nodes[tree.pools[start.index].node.index].box;
+        Vector3d to = Vector3d(8, 8, 8) + random_point(random, move % 2 == 0 ? 7.9 : 20);
+        if (move % 3 == 0)
+            to[move % 9 / 3] = leaf.upper[move % 9 / 3];
+        const PoolId found = locate(tree, to);
+        ASSERT_EQ(locate_near(tree, start, to), found) << to.transpose();
+        outside += !found.valid();
+    }
+    EXPECT_GT(outside, 100'000U);
 }
 
 // A swarm of forty clusters crosses a cell in two frames: what it leaves is pruned every eighth frame.
