@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -61,7 +62,7 @@ template <std::size_t Size>
 void set(char (&field)[Size], std::string_view text)
 {
     const std::string_view stored = fitting(text, Size - 1);
-    std::memcpy(field, stored.data(), stored.size());
+    std::copy(stored.begin(), stored.end(), field); // an empty text may have no place in memory
     field[stored.size()] = '\0';
 }
 
