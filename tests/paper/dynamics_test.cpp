@@ -61,17 +61,6 @@ TEST(Paper, A39_TheCentreIsTheMassWeightedMeanAndMomentumSurvivesEveryMergeAndSp
 
 const Vector3d middle(512, 512, 512); ///< of a cell of side 1024
 
-/// Gravity, drag and wind, and clusters of at most `max_cluster_size`, in cells of side 1024.
-SimulationSettings windy(double max_cluster_size)
-{
-    SimulationSettings settings = rigid_settings(max_cluster_size);
-    settings.background.max_breadth = 1024;
-    settings.uniform_gravity.emplace();
-    settings.linear_drag = LinearDragSettings{0.5};
-    settings.uniform_wind = UniformWindSettings{{2, -1, 0}};
-    return settings;
-}
-
 TEST(Paper, A40_AClustersCentreFollowsTheMeanOfItsMembersOwnPaths)
 {
     ParticleSet particles = ball(40, 1, 3, 1, middle);

@@ -77,17 +77,6 @@ TEST(SlodStability, S08_RowsSquaresAndCubesAreDividedEvenlyInAFlatTree)
     }
 }
 
-/// Everything that has no pairs: gravity, drag and wind.
-SimulationSettings windy(double max_cluster_size)
-{
-    SimulationSettings settings = rigid_settings(max_cluster_size);
-    settings.background.max_breadth = 1024;
-    settings.uniform_gravity.emplace();
-    settings.linear_drag = LinearDragSettings{0.5};
-    settings.uniform_wind = UniformWindSettings{{2, -1, 0}};
-    return settings;
-}
-
 TEST(SlodStability, S24_OneParticlePerClusterEverywhereIsTheRunWithoutClusters)
 {
     const ParticleSet particles = ball(500, 2, 3, 1);

@@ -87,4 +87,14 @@ double rms_distance(const ParticleSet& a, const ParticleSet& b)
     return std::sqrt(sum / double(a.size()));
 }
 
+SimulationSettings windy(double max_cluster_size)
+{
+    SimulationSettings settings = rigid_settings(max_cluster_size);
+    settings.background.max_breadth = 1024;
+    settings.uniform_gravity.emplace();
+    settings.linear_drag = LinearDragSettings{0.5};
+    settings.uniform_wind = UniformWindSettings{{2, -1, 0}};
+    return settings;
+}
+
 } // namespace slod::test

@@ -39,4 +39,8 @@ inline double mean_size(const RegionLoad& load)
 /// Root mean square distance of particles in two sets of the same ids, which are ordered by them.
 double rms_distance(const ParticleSet& a, const ParticleSet& b);
 
+/// Everything that has no pairs, gravity, drag and wind, in clusters of at most `max_cluster_size` and cells
+/// of side 1024.
+SimulationSettings windy(double max_cluster_size);
+
 } // namespace slod::test
