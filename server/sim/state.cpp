@@ -74,7 +74,8 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       propagator(fields.over(scene.time.step)),
       store(cluster_columns(plan, scene), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, scene.time.step)),
-      tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(plan.merging, context()),
+      tree(tree_of(scene, initial)), reforming(scene.motion, context()),
+      regrouping(scene.motion, plan.merging, context()),
       emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step),
       particle_count(initial.size())
 {
@@ -84,6 +85,8 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     for (const ParticleKind& kind : scene.kinds)
         store.kind_softening_squared.push_back(kind.softening * kind.softening);
     reforming.found(tree, initial, frame);
+    if (plan.merging && scene.motion.build_respects_limits)
+        regrouping.divide_by_velocity(tree, frame);
     make_room();
     if (scene.gravity) {
         measure_moments();

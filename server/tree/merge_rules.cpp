@@ -122,6 +122,13 @@ bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterS
             !wider_than(breadth_goal(region, size), union_moments(store, a.index, b.index, frame), size));
 }
 
+bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
+                 std::uint64_t frame, const Vector3d& reference)
+{
+    const VelocityBall ball = velocity_ball(store, slot.index, frame, reference);
+    return move_alike(region, ball, ball);
+}
+
 double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass)
 {
     const double ratio = region.speed_ratio;

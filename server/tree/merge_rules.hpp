@@ -14,6 +14,10 @@ namespace slod {
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
                std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 
+/// Whether the velocities of any two of its members are within the region's limits to each other.
+bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
+                 std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
+
 /// How much a merge within the region's limits can change the velocity of a cluster of this mass and speed,
 /// relative to the same reference, when its partner has `other_mass`: length / time. The formulas of section
 /// 6.2 are no such bounds: they leave out that a turn changes the speed, and that the faster one turns the

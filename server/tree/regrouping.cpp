@@ -123,10 +123,42 @@ void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
 {
     if (splitting_.empty())
         return;
+    dissolve_splitting(tree);
+    form_dissolved(tree, &Particle::position);
+    counts.splits += splitting_.size();
+    counts.reformed_members += grouping_.particles.size();
+}
+
+void Regrouping::divide_by_velocity(SlodTree& tree, std::uint64_t frame)
+{
+    context_.frame = frame;
+    measure_surroundings(tree);
+    const ClusterTable& clusters = context_.store.clusters;
+    const auto mixed = [&](ClusterSlot slot) {
+        const RegionRow region = clusters.region[slot.index];
+        return clusters.count[slot.index] > 1 && !moves_alike(context_.store, tree.subtrees[region].settings,
+                                                              slot, frame, surroundings_[region]);
+    };
+    for (;;) {
+        splitting_.clear();
+        for (std::uint32_t slot = 0; slot < clusters.slot_count(); ++slot)
+            if (clusters.alive(slot) && mixed({slot}))
+                splitting_.push_back({slot});
+        if (splitting_.empty())
+            return;
+        dissolve_splitting(tree);
+        form_dissolved(tree, &Particle::velocity);
+    }
+}
+
+/// Ends the clusters in `splitting_`; a group of each one's members is divided into as many as its size asks
+/// for, two at least.
+void Regrouping::dissolve_splitting(SlodTree& tree)
+{
+    const ClusterTable& clusters = context_.store.clusters;
     grouping_.clear();
     std::uint32_t first = 0;
     for (const ClusterSlot slot : splitting_) {
-        const ClusterTable& clusters = context_.store.clusters;
         const PoolRef pool{clusters.region[slot.index], clusters.pool[slot.index]};
         const std::uint32_t count = clusters.count[slot.index];
         const std::uint32_t parts = clusters_for(count, tree.of(pool).max_cluster_size());
@@ -134,23 +166,40 @@ void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
             {.pool = pool, .first = first, .count = count, .clusters = std::max(parts, 2U)});
         first += count;
     }
-    form_from(tree, splitting_);
-    counts.splits += splitting_.size();
-    counts.reformed_members += first;
+    dissolve(tree, grouping_, splitting_, context_);
 }
 
-/// Ends the clusters, forms the groups' new ones of their members, and links each where it is.
-void Regrouping::form_from(SlodTree& tree, std::span<const ClusterSlot> ended)
+/// Divides the groups of dissolved clusters by `place`, forms clusters and links each where it is.
+void Regrouping::form_dissolved(SlodTree& tree, Vector3d Particle::*place)
 {
     ClusterTable& clusters = context_.store.clusters;
-    dissolve(tree, grouping_, ended, context_);
     for (std::size_t i = 0; i < grouping_.particles.size(); ++i)
-        grouping_.place[i] = grouping_.particles[i].position;
+        grouping_.place[i] = grouping_.particles[i].*place;
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
     form_groups(grouping_, context_);
     for (const ClusterSlot slot : grouping_.slots) {
         const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
+    }
+}
+
+/// Gives the particles of each dissolved group their mean velocity: by mass, or by number when all are
+/// massless.
+void Regrouping::share_velocities()
+{
+    for (const Grouping::Group& group : grouping_.groups) {
+        const std::span<Particle> particles =
+            std::span(grouping_.particles).subspan(group.first, group.count);
+        double mass = 0;
+        Vector3d momentum(0, 0, 0), sum(0, 0, 0);
+        for (const Particle& particle : particles) {
+            mass += double(particle.mass);
+            momentum += double(particle.mass) * particle.velocity;
+            sum += particle.velocity;
+        }
+        const Vector3d mean = mass > 0 ? Vector3d(momentum / mass) : Vector3d(sum / double(group.count));
+        for (Particle& particle : particles)
+            particle.velocity = mean;
     }
 }
 
@@ -211,7 +260,10 @@ void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
     }
     if (merging_pairs_.empty())
         return;
-    form_from(tree, merging_pairs_);
+    dissolve(tree, grouping_, merging_pairs_, context_);
+    if (merged_velocities_ == MergedVelocities::Collapse)
+        share_velocities();
+    form_dissolved(tree, &Particle::position);
     counts.merges += merging_pairs_.size() / 2;
     counts.reformed_members += first;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cluster/motion.hpp"
 #include "tree/grouping.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -15,7 +16,13 @@ namespace slod {
 /// two of one pool merge when together they are small enough and move alike.
 class Regrouping {
 public:
-    Regrouping(bool merging, const UpdateContext& context) : merging_(merging), context_(context) {}
+    Regrouping(const MotionSettings& motion, bool merging, const UpdateContext& context)
+        : merged_velocities_(motion.merged_velocities), merging_(merging), context_(context)
+    {}
+
+    /// Divides clusters by their members' velocities, wherever those are, until in each of them the region's
+    /// speed ratio and angle hold between any two members.
+    void divide_by_velocity(SlodTree& tree, std::uint64_t frame);
 
     /// Lets clusters merge from here on, whatever was said at the start.
     void allow_merging() { merging_ = true; }
@@ -43,10 +50,13 @@ private:
     void measure_surroundings(const SlodTree& tree);
     void merge(SlodTree& tree, UpdateCounts& counts);
     void pair_clusters(const Subtree& tree, const Pool& pool);
-    void form_from(SlodTree& tree, std::span<const ClusterSlot> ended);
+    void dissolve_splitting(SlodTree& tree);
+    void form_dissolved(SlodTree& tree, Vector3d Particle::*place);
+    void share_velocities();
     void revise(SlodTree& tree);
     void expand_crowded(Subtree& tree, PoolId pool);
 
+    MergedVelocities merged_velocities_;
     bool merging_;
     UpdateContext context_;
     Grouping grouping_;

@@ -100,6 +100,18 @@ TEST(Paper, A41_AllMembersAreDisplacedAlikeAndKeepTheirOwnVelocities)
     }
 }
 
+TEST(Paper, A41_WhereVelocitiesCollapseMembersOfAMergedClusterMoveAsOne)
+{
+    RigidRules rules{.background = {.max_cluster_size = 16, .speed_floor = 1}, .regions = {}};
+    rules.motion.merged_velocities = MergedVelocities::Collapse;
+    RigidWorld world(rules, ball(64, 1, 0.01, 1, {4, 4, 4}), true);
+    world.advance(100);
+    ASSERT_LT(world.alive().size(), 16U);
+    for (const ClusterSlot slot : world.alive())
+        for (const Particle& member : world.members(slot))
+            EXPECT_EQ((member.velocity - world.clusters().velocity[slot.index]).norm(), 0);
+}
+
 TEST(Paper, A42_AClusterAttractsAndIsAttractedAsOneBody)
 {
     SimulationSettings settings = rigid_settings(16);

@@ -57,7 +57,7 @@ Sizes parts_of(std::uint32_t size, double limit, double radius)
 {
     test::World world({MapKind::Identity, 0, 1}, {}, paper_region(limit), 8);
     world.add(ball(size, radius, 0, 1, {4, 4, 4}));
-    Regrouping regrouping(false, world.context(0));
+    Regrouping regrouping({}, false, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 8; ++frame)
         regrouping.update(world.tree, frame, counts);
@@ -108,7 +108,7 @@ std::pair<std::uint64_t, std::uint64_t> merge_and_split(std::size_t each, double
     test::World world({MapKind::Identity, 0, 1}, {}, region, 1);
     world.add(clump(each, {0.1, 0.5, 0.5}, {0, 0, 0}, 1));
     world.add(clump(each, Vector3d(0.1, 0.5, 0.5) + apart, {0, 0, 0}, 100));
-    Regrouping regrouping(true, world.context(0));
+    Regrouping regrouping({}, true, world.context(0));
     std::uint64_t merged = 0, split = 0;
     for (std::uint64_t frame = 1; frame <= 200; ++frame) {
         UpdateCounts counts;
@@ -155,7 +155,7 @@ bool merge(const RegionSettings& region, const Vector3d& first, const Vector3d& 
     test::World world({MapKind::Identity, 0, 1}, {}, one_place, 8);
     world.add(clump(2, {1, 1, 1}, first, 1));
     world.add(clump(2, {1, 1, 1}, second, 10));
-    Regrouping regrouping(true, world.context(0));
+    Regrouping regrouping({}, true, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 16; ++frame)
         regrouping.update(world.tree, frame, counts);
@@ -220,6 +220,31 @@ TEST(Paper, A25_TheLimitsHoldForMergesThoughTheBuildMixes)
     for (const Pool& pool : apart.tree().subtrees.front().pools)
         shared += pool.node.valid() && pool.clusters > 1 ? 1 : 0;
     EXPECT_GT(shared, 0U);
+}
+
+TEST(Paper, A25_TheBuildRespectsTheLimitsWhereThatIsAskedFor)
+{
+    ParticleSet particles = cube(2000, 2, 1);
+    for (Particle& particle : particles)
+        particle.velocity = Vector3d(particle.id % 2 == 0 ? 1 : -1, 0.1 * double(particle.id % 3), 0);
+    RigidRules rules{.background = paper_region(16), .regions = {}};
+    const auto worst = [&](const RigidWorld& world) {
+        double cosine = 1;
+        for (const ClusterSlot slot : world.alive())
+            for (const Particle& a : world.members(slot))
+                for (const Particle& b : world.members(slot))
+                    cosine = std::min(cosine,
+                                      a.velocity.dot(b.velocity) / (a.velocity.norm() * b.velocity.norm()));
+        return cosine;
+    };
+    const RigidWorld mixed(rules, particles);
+    EXPECT_LT(worst(mixed), -0.9);
+    rules.motion.build_respects_limits = true;
+    RigidWorld built(rules, particles);
+    EXPECT_GE(worst(built), std::cos(rules.background.angle_deg * std::numbers::pi / 180));
+    // A division at balanced counts leaves at most one part mixed, and a part of one is not.
+    EXPECT_LE(built.alive().size(), (1 + 4) * mixed.alive().size());
+    EXPECT_TRUE(built.problems().empty());
 }
 
 TEST(Paper, A26_TheLimitsTakeNoMemory)

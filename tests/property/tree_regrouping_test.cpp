@@ -129,7 +129,7 @@ TEST(Regrouping, GoesOnUntilNothingMayMerge)
     test::World world({MapKind::Identity, 0, step}, {}, limits, 1);
     for (const Particle& particle : test::ball(200, 1, 0, 1))
         world.add({particle});
-    Regrouping regrouping(true, world.context(0));
+    Regrouping regrouping({}, true, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 400; ++frame)
         regrouping.update(world.tree, frame, counts);

@@ -35,7 +35,7 @@ struct RoundTrip {
 
     void run()
     {
-        Regrouping regrouping(true, world.context(0));
+        Regrouping regrouping({}, true, world.context(0));
         for (const double size : {64.0, 5.0, 32.0, 1.0}) {
             world.region().settings.max_cluster_size = size;
             for (int i = 0; i < 100; ++i) {
@@ -87,7 +87,7 @@ TEST(SlodStability, S02_EveryMergeTurnsTheCentresEnergyIntoInternalEnergy)
     give_masses(particles, 0.1, 10, 1);
     RoundTrip trip(particles);
     trip.world.region().settings.max_cluster_size = 64;
-    Regrouping regrouping(true, trip.world.context(0));
+    Regrouping regrouping({}, true, trip.world.context(0));
     const auto of_centres = [&] {
         double energy = 0;
         const ClusterTable& clusters = trip.world.store.clusters;
@@ -105,6 +105,38 @@ TEST(SlodStability, S02_EveryMergeTurnsTheCentresEnergyIntoInternalEnergy)
         ASSERT_NEAR(now, before, formings * fastest * fastest * totals(particles).mass * float_rounding);
     }
     EXPECT_LT(of_centres(), 0.5 * before);
+}
+
+// Of two that become one and take their mean velocity, the energy of their relative motion is gone.
+TEST(SlodStability, S02_WhereVelocitiesCollapseAMergeLosesTheEnergyOfTheRelativeMotion)
+{
+    const std::vector<MergingPair> pairs = random_pairs(200, 5);
+    test::World world({MapKind::Identity, 0, 1}, {}, RoundTrip::region(), 8);
+    double expected_loss = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const MergingPair& pair = pairs[i];
+        Particle particle;
+        particle.position = Vector3d(8.0 * double(i) + 4, 4, 4); // a cell for each pair
+        for (const auto& [mass, velocity] :
+             {std::pair(pair.mass, pair.velocity), std::pair(pair.other_mass, pair.other_velocity)}) {
+            ++particle.id;
+            particle.mass = float(mass);
+            particle.velocity = velocity;
+            world.add({particle});
+        }
+        const double mass = double(float(pair.mass)), other_mass = double(float(pair.other_mass));
+        expected_loss += 0.5 * mass * other_mass / (mass + other_mass) *
+                         (pair.velocity - pair.other_velocity).squaredNorm();
+    }
+    const double before = conserved_quantities(world.store, 0).kinetic_energy;
+    Regrouping regrouping({.merged_velocities = MergedVelocities::Collapse}, true, world.context(0));
+    UpdateCounts counts;
+    for (std::uint64_t frame = 1; frame <= 32; ++frame)
+        regrouping.update(world.tree, frame, counts);
+    ASSERT_EQ(counts.merges, pairs.size());
+    const double lost = before - conserved_quantities(world.store, 32).kinetic_energy;
+    EXPECT_NEAR(lost, expected_loss, 1e-13 * before);
+    EXPECT_GT(lost, 0.05 * before);
 }
 
 TEST(SlodStability, S03_EveryMergeKeepsTheBoundThatThePapersFormulasBreak)

@@ -16,7 +16,7 @@ double cell_side(const RigidRules& rules)
 
 RigidWorld::RigidWorld(const RigidRules& rules, const ParticleSet& particles, bool singly)
     : world_({MapKind::Identity, 0, step}, {}, rules.background, cell_side(rules)),
-      regrouping_(rules.merging, world_.context(0))
+      regrouping_(rules.motion, rules.merging, world_.context(0))
 {
     for (const RegionOfInterest& region : rules.regions)
         open_region(world_.tree, region);
@@ -25,7 +25,9 @@ RigidWorld::RigidWorld(const RigidRules& rules, const ParticleSet& particles, bo
         for (const Particle& particle : particles)
             world_.add({particle});
     } else if (!particles.empty()) {
-        Reforming({}, world_.context(0)).found(world_.tree, particles, 0);
+        Reforming(rules.motion, world_.context(0)).found(world_.tree, particles, 0);
+        if (rules.motion.build_respects_limits)
+            regrouping_.divide_by_velocity(world_.tree, 0);
     }
 }
 

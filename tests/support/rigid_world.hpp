@@ -13,6 +13,7 @@ struct RigidRules {
     std::vector<RegionOfInterest> regions;
     double cell_side = 8; ///< of the background's grid, when its breadth is unlimited
     bool merging = true;
+    MotionSettings motion{};
 };
 
 /// The paper's own scheme in straight flight, open to tests that ask who shares a cluster with whom: clusters

@@ -112,6 +112,18 @@ TEST(SimulationSettings, RefuseLivesThatAreNoPowersOfTwo)
     EXPECT_TRUE(one_says(found, {"motion.longest_life = 100 is no power of two; use 64."}));
 }
 
+TEST(SimulationSettings, RefuseRulesForMergesWhereNothingMerges)
+{
+    SimulationSettings settings = sound();
+    settings.motion.merged_velocities = MergedVelocities::Collapse;
+    settings.motion.build_respects_limits = true;
+    const Problems found = problems(settings);
+    EXPECT_TRUE(one_says(found, {"motion.merged_velocities = \"collapse\"", "motion.kind = \"rigid\""}));
+    EXPECT_TRUE(one_says(found, {"motion.build_respects_limits = true", "motion.kind = \"rigid\""}));
+    settings.motion.motion = Motion::Rigid;
+    EXPECT_TRUE(problems(settings).empty());
+}
+
 TEST(SimulationSettings, RefuseAShortestLifeLongerThanTheLongest)
 {
     SimulationSettings settings = sound();

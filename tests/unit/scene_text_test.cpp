@@ -158,6 +158,10 @@ Scene random_scene(std::uint64_t seed)
     simulation.motion.longest_life = simulation.motion.shortest_life << scrambler.below(6);
     if (simulation.uniform_wind)
         simulation.linear_drag.emplace();
+    if (simulation.motion.motion != Motion::Rigid) {
+        simulation.motion.merged_velocities = MergedVelocities::Keep;
+        simulation.motion.build_respects_limits = false;
+    }
     scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;
     scene.initial.fallback = InitialModel::None;
     if (scene.initial.model == InitialModel::None)
