@@ -87,8 +87,6 @@ void Connection::follow_session()
     stats_.reset();
     overview_.reset();
     assembler_.reset();
-    stats_meter_.reset();
-    overview_meter_.reset();
     clusters_meter_.reset();
 }
 
@@ -96,12 +94,6 @@ template <class Message>
 bool Connection::is_ours(const Message& message, const dds_sample_info_t& info) const
 {
     return info.valid_data && session_ == wire::uuid_of(message.session);
-}
-
-template <class Message>
-void Connection::measure(StreamMeter& meter, const Message& message, const dds_sample_info_t& info) const
-{
-    meter.on_sample(message.serial, wire::wire_bytes(message), age(info), Clock::now());
 }
 
 void Connection::take_stats()
@@ -112,7 +104,6 @@ void Connection::take_stats()
                                      if (!is_ours(stats, info))
                                          return;
                                      assign(stats_ ? *stats_ : stats_.emplace(), stats);
-                                     measure(stats_meter_, stats, info);
                                  });
 }
 
@@ -147,7 +138,6 @@ void Connection::take_frames()
                                         if (!is_ours(overview, info))
                                             return;
                                         assign(overview_ ? *overview_ : overview_.emplace(), overview);
-                                        measure(overview_meter_, overview, info);
                                     });
     if (!clusters_reader_)
         return;
@@ -155,7 +145,8 @@ void Connection::take_frames()
         if (!is_ours(clusters, info))
             return;
         assembler_.on_clusters(clusters);
-        measure(clusters_meter_, clusters, info);
+        clusters_meter_.on_sample(clusters.region, clusters.serial, wire::wire_bytes(clusters), age(info),
+                                  Clock::now());
     };
     clusters_reader_->take_each(samples_per_poll, take_clusters);
     if (shared_clusters_reader_)

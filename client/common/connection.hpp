@@ -61,8 +61,6 @@ public:
     const wire::Participant& participant() const { return participant_; }
 
     StreamMeter::Report clusters_traffic() const { return clusters_meter_.report(Clock::now()); }
-    StreamMeter::Report overview_traffic() const { return overview_meter_.report(Clock::now()); }
-    StreamMeter::Report stats_traffic() const { return stats_meter_.report(Clock::now()); }
 
 private:
     void take_states();
@@ -72,8 +70,6 @@ private:
     void follow_session();
     template <class Message>
     bool is_ours(const Message& message, const dds_sample_info_t& info) const;
-    template <class Message>
-    void measure(StreamMeter& meter, const Message& message, const dds_sample_info_t& info) const;
 
     std::uint32_t domain_;
     wire::Profile profile_;
@@ -93,7 +89,7 @@ private:
     std::optional<OverviewNodes> overview_;
     std::map<wire::Uuid, Regions> regions_; ///< by session
     FrameAssembler assembler_;
-    StreamMeter stats_meter_, overview_meter_, clusters_meter_;
+    StreamMeter clusters_meter_;
 };
 
 } // namespace slod::client

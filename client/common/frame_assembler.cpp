@@ -5,6 +5,12 @@
 
 namespace slod::client {
 
+namespace {
+
+constexpr std::string_view unused; ///< name of memory that waits for a region
+
+} // namespace
+
 std::size_t ClusterFrame::nodes() const
 {
     std::size_t sum = 0;
@@ -40,8 +46,13 @@ void FrameAssembler::reset()
 
 RegionClusters& FrameAssembler::arriving(std::string_view region)
 {
-    const auto found = std::find_if(arriving_.begin(), arriving_.end(),
-                                    [region](const RegionClusters& known) { return known.region == region; });
+    const auto named = [this](std::string_view name) {
+        return std::find_if(arriving_.begin(), arriving_.end(),
+                            [name](const RegionClusters& known) { return known.region == name; });
+    };
+    auto found = named(region);
+    if (found == arriving_.end())
+        found = named(unused);
     return found != arriving_.end() ? *found : arriving_.emplace_back();
 }
 
@@ -60,9 +71,13 @@ void FrameAssembler::complete_if_all_arrived()
     newest_.frame = *expected_frame_;
     newest_.time = expected_time_;
     newest_.regions.resize(expected_.size());
+    for (RegionClusters& old : newest_.regions)
+        old.region = unused;
     for (std::size_t i = 0; i < expected_.size(); ++i)
         std::swap(newest_.regions[i], arriving(expected_[i]));
-    std::erase_if(arriving_, [](const RegionClusters& unused) { return unused.region.empty(); });
+    for (RegionClusters& left : arriving_)
+        if (left.frame <= *expected_frame_)
+            left.region = unused;
     expected_frame_.reset();
     ++complete_count_;
 }

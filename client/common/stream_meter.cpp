@@ -19,12 +19,17 @@ double percentile(std::span<const double> sorted, double share)
 
 } // namespace
 
-void StreamMeter::on_sample(std::uint64_t serial, std::size_t bytes, std::chrono::nanoseconds latency,
-                            Clock::time_point now)
+void StreamMeter::on_sample(std::string_view stream, std::uint64_t serial, std::size_t bytes,
+                            std::chrono::nanoseconds latency, Clock::time_point now)
 {
-    if (last_serial_ != 0 && serial > last_serial_)
-        lost_ += serial - last_serial_ - 1;
-    last_serial_ = serial;
+    const auto known = last_serial_.find(stream);
+    if (known == last_serial_.end()) {
+        last_serial_.emplace(stream, serial);
+    } else {
+        if (serial > known->second)
+            lost_ += serial - known->second - 1;
+        known->second = serial;
+    }
     arrivals_[received_ % remembered] = {.when = now,
                                          .bytes = bytes,
                                          .latency_ms =

@@ -4,10 +4,15 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
 
 namespace slod::client {
 
-/// Measures the samples of one topic as they arrive: rate, latency, loss, bytes. Fixed memory.
+/// Measures the samples of one topic as they arrive: rate, latency, loss, bytes. Memory is fixed but for the
+/// names of the topic's streams.
 class StreamMeter {
 public:
     using Clock = std::chrono::steady_clock;
@@ -22,9 +27,10 @@ public:
         double latency_p99_ms = 0;
     };
 
-    /// A sample with the writer's number `serial` was read, `latency` after it was written.
-    void on_sample(std::uint64_t serial, std::size_t bytes, std::chrono::nanoseconds latency,
-                   Clock::time_point now);
+    /// A sample was read, `latency` after it was written: number `serial` of its stream, which is the region
+    /// in topics that have one and else empty.
+    void on_sample(std::string_view stream, std::uint64_t serial, std::size_t bytes,
+                   std::chrono::nanoseconds latency, Clock::time_point now);
 
     Report report(Clock::time_point now) const;
 
@@ -44,7 +50,7 @@ private:
     std::uint64_t received_ = 0;
     std::uint64_t lost_ = 0;
     std::uint64_t bytes_ = 0;
-    std::uint64_t last_serial_ = 0;
+    std::map<std::string, std::uint64_t, std::less<>> last_serial_; ///< by stream
 };
 
 } // namespace slod::client

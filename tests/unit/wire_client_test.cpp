@@ -212,11 +212,42 @@ TEST(WireClientFrames, AnotherSessionBeginsWithNothing)
     EXPECT_EQ(frames.newest(), nullptr);
 }
 
+TEST(WireClientFrames, ARegionThatComesAndGoesIsNeverShownAsItWas)
+{
+    FrameAssembler frames;
+    std::uint64_t frame = 0;
+    const auto arrive = [&](const std::vector<std::string>& names) {
+        ++frame;
+        for (const std::string& name : names)
+            frames.on_clusters(RegionSample(name, frame).message);
+        frames.on_manifest(Manifest(names, frame).message);
+        ASSERT_EQ(frames.complete_count(), frame);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            EXPECT_EQ(frames.newest()->regions[i].region, names[i]) << "frame " << frame;
+            EXPECT_EQ(frames.newest()->regions[i].mass.at(0), float(frame)) << names[i];
+        }
+    };
+    for (const auto& names : std::vector<std::vector<std::string>>{
+             {"a", "b"}, {"b"}, {"a", "b"}, {"b", "a"}, {"c", "a"}, {"a", "b", "c"}})
+        arrive(names);
+}
+
+TEST(WireClientMeter, NumbersCountByRegion)
+{
+    StreamMeter meter;
+    for (std::uint64_t serial = 1; serial <= 3; ++serial) {
+        meter.on_sample("a", serial, 100, 1ms, start);
+        meter.on_sample("b", 100 + 2 * serial, 100, 1ms, start);
+    }
+    EXPECT_EQ(meter.report(start).received, 6U);
+    EXPECT_EQ(meter.report(start).lost, 2U);
+}
+
 TEST(WireClientMeter, GapsInTheNumbersAreLosses)
 {
     StreamMeter meter;
     for (const std::uint64_t serial : {7, 8, 10, 14})
-        meter.on_sample(serial, 100, 1ms, start);
+        meter.on_sample("", serial, 100, 1ms, start);
     const StreamMeter::Report report = meter.report(start);
     EXPECT_EQ(report.received, 4U);
     EXPECT_EQ(report.lost, 4U);
@@ -226,10 +257,10 @@ TEST(WireClientMeter, GapsInTheNumbersAreLosses)
 TEST(WireClientMeter, RateAndLatencyAreThoseOfTheLastTwoSeconds)
 {
     StreamMeter meter;
-    meter.on_sample(1, 100, 500ms, start);
+    meter.on_sample("", 1, 100, 500ms, start);
     const Clock::time_point now = start + 10s;
     for (std::uint64_t i = 0; i <= 10; ++i)
-        meter.on_sample(2 + i, 100, i < 10 ? 2ms : 9ms, now - 1s + i * 100ms);
+        meter.on_sample("", 2 + i, 100, i < 10 ? 2ms : 9ms, now - 1s + i * 100ms);
     const StreamMeter::Report report = meter.report(now);
     EXPECT_DOUBLE_EQ(report.rate_hz, 10); // ten periods in one second
     EXPECT_DOUBLE_EQ(report.bytes_per_s, 1000);
@@ -241,7 +272,7 @@ TEST(WireClientMeter, MoreSamplesThanItRemembersAreStillCounted)
 {
     StreamMeter meter;
     for (std::uint64_t serial = 1; serial <= 1000; ++serial)
-        meter.on_sample(serial, 1, 1ms, start + serial * 1ms);
+        meter.on_sample("", serial, 1, 1ms, start + serial * 1ms);
     const StreamMeter::Report report = meter.report(start + 1s);
     EXPECT_EQ(report.received, 1000U);
     EXPECT_DOUBLE_EQ(report.rate_hz, 1000);
