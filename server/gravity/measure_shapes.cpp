@@ -28,8 +28,12 @@ void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double 
             const Symmetric3 extent = map_position_moments(moments, clusters.blocks(slot, store.rule, frame));
             const double variance = std::max(extent.trace() / moments.weight, 0.0);
             clusters.variance[slot] = variance;
-            if (!clusters.columns.map || !gravity.closure)
+            if (!clusters.columns.map)
                 continue;
+            if (!gravity.closure) {
+                clusters.closure[slot] = 0;
+                continue;
+            }
             // A homogeneous ball with this variance; n / (n - 1) as the sample's variance is biased.
             const double n = clusters.count[slot];
             const double radius_squared =

@@ -203,6 +203,7 @@ TEST(MeasureShapes, SofteningWeakensTheClosure)
                      500 / std::pow(5.0 / 3.0 * s * 500.0 / 499.0 + 9, 1.5));
     measure_shapes(world.store, {.closure = false}, 1, 0);
     EXPECT_EQ(world.store.clusters.variance[slot.index], s);
+    EXPECT_EQ(world.store.clusters.closure[slot.index], 0) << "switched off";
 }
 
 TEST(MeasureShapes, SingleMasslessAndCoincidentMembersHaveNoClosure)
