@@ -4,29 +4,19 @@
 #include <numeric>
 #include <utility>
 
+#include "core/morton.hpp"
+
 namespace slod {
 
 namespace {
 
-constexpr unsigned bits_per_axis = 21;
 constexpr unsigned digit_bits = 11;
-constexpr unsigned code_bits = 3 * bits_per_axis;
-
-/// The lowest 21 bits of `value`, each followed by two zero bits.
-constexpr std::uint64_t spread(std::uint64_t value)
-{
-    value = (value | value << 32) & 0x001f'0000'0000'ffff;
-    value = (value | value << 16) & 0x001f'0000'ff00'00ff;
-    value = (value | value << 8) & 0x100f'00f0'0f00'f00f;
-    value = (value | value << 4) & 0x10c3'0c30'c30c'30c3;
-    value = (value | value << 2) & 0x1249'2492'4924'9249;
-    return value;
-}
+constexpr unsigned code_bits = 3 * morton_bits;
 
 /// Cell of a coordinate on an axis of 2^21 cells; NaN falls into the first one.
 std::uint64_t cell(double offset, double cells_per_length)
 {
-    constexpr double last = (1U << bits_per_axis) - 1;
+    constexpr double last = (1U << morton_bits) - 1;
     const double place = offset * cells_per_length;
     if (!(place > 0))
         return 0;
@@ -140,13 +130,13 @@ void NodeGroups::find_box(const ClusterStates& states)
 void NodeGroups::sort_by_place(const ClusterStates& states)
 {
     const double extent = (upper_ - lower_).maxCoeff();
-    const double cells_per_length = extent > 0 ? (1U << bits_per_axis) / extent : 0;
+    const double cells_per_length = extent > 0 ? (1U << morton_bits) / extent : 0;
     keys_.clear();
     for (const std::uint32_t row : rows_) {
         const Vector3d offset = states.position[row] - lower_;
-        const std::uint64_t code = spread(cell(offset.x(), cells_per_length)) << 2 |
-                                   spread(cell(offset.y(), cells_per_length)) << 1 |
-                                   spread(cell(offset.z(), cells_per_length));
+        const std::uint64_t code = spread_bits(cell(offset.x(), cells_per_length)) << 2 |
+                                   spread_bits(cell(offset.y(), cells_per_length)) << 1 |
+                                   spread_bits(cell(offset.z(), cells_per_length));
         keys_.push_back({code, row});
     }
     for (unsigned shift = 0; shift < code_bits; shift += digit_bits)

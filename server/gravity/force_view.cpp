@@ -4,6 +4,7 @@
 #include <bit>
 #include <tuple>
 
+#include "core/morton.hpp"
 #include "core/parallel.hpp"
 #include "gravity/node_sums.hpp"
 
@@ -13,17 +14,6 @@ namespace {
 constexpr std::size_t block = 512;
 constexpr std::size_t deepest_path = 160; ///< nodes from the root: octants of cells, k-d nodes, halved leaves
 constexpr std::size_t leaf_bodies = 8;    ///< a leaf with more is halved
-
-/// Spreads the low 21 bits of `value` to every third bit.
-std::uint64_t spread_bits(std::uint64_t value)
-{
-    value &= 0x1f'ffff;
-    value = (value | value << 32) & 0x001f'0000'0000'ffff;
-    value = (value | value << 16) & 0x001f'0000'ff00'00ff;
-    value = (value | value << 8) & 0x100f'00f0'0f00'f00f;
-    value = (value | value << 4) & 0x10c3'0c30'c30c'30c3;
-    return (value | value << 2) & 0x1249'2492'4924'9249;
-}
 
 /// Cells beyond 2^20 from the origin share the codes at the rim: their order suffers, nothing else.
 std::uint64_t morton_code(const Cell& cell)
