@@ -44,7 +44,6 @@ const wire::Stats& StatsEncoder::encode(const Snapshot& snapshot, const LoopStat
     message_.clusters = snapshot.counts.clusters;
     encode_phases(snapshot.profile);
     encode_counts(snapshot.counts);
-    set_conserved(snapshot.conserved);
     message_.wire = published;
     return message_;
 }

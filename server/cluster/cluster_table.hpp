@@ -13,7 +13,7 @@
 namespace slod {
 
 /// All clusters, one array per quantity, a row per slot. Slots of ended clusters are re-used, with a new
-/// generation. Centres in double: they are few. Invariants, checked by problems():
+/// generation. Centres in double: they are few. Invariants:
 ///  - a slot is either free (count 0) or alive, with count live members within its slab's first `stored`
 ///  rows;
 ///  - the moments are those of the live members;

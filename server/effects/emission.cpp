@@ -37,19 +37,21 @@ Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, d
     : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), cohorts_(emitters_.size())
 {}
 
-std::uint64_t Emission::update(SlodTree& tree, const UpdateContext& context, bool kicked)
+Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, bool kicked,
+                                  std::uint64_t room)
 {
-    std::uint64_t born = 0;
+    Births births;
     new_clusters_.clear();
     for (std::size_t emitter = 0; emitter < emitters_.size(); ++emitter) {
         newborns_.clear();
-        emitters_[emitter].emit(context.frame, context.step, fields_, newborns_);
-        born += newborns_.size();
+        births.refused +=
+            emitters_[emitter].emit(context.frame, context.step, fields_, room - births.born, newborns_);
+        births.born += newborns_.size();
         const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
         if (joined < newborns_.size())
             found(tree, emitter, joined, context);
     }
-    return born;
+    return births;
 }
 
 /// Puts the first newborns into the open cluster as far as it has room; returns how many.

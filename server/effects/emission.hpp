@@ -27,9 +27,14 @@ public:
         double age;
     };
 
-    /// Emits frame `context.frame`; returns how many particles were born. With `kicked`, particles that
-    /// join a cohort get its acceleration for their own time only.
-    std::uint64_t update(SlodTree& tree, const UpdateContext& context, bool kicked);
+    struct Births {
+        std::uint64_t born = 0;
+        std::uint64_t refused = 0; ///< there was no room for
+    };
+
+    /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused. With
+    /// `kicked`, particles that join a cohort get its acceleration for their own time only.
+    Births update(SlodTree& tree, const UpdateContext& context, bool kicked, std::uint64_t room);
 
     const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
 

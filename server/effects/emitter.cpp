@@ -29,12 +29,13 @@ std::uint64_t Emitter::count_before(double time) const
     return running > 0 ? std::uint64_t(std::ceil(running * settings_.rate)) : 0;
 }
 
-void Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields,
-                   std::vector<Newborn>& newborns) const
+std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
+                            std::vector<Newborn>& newborns) const
 {
     const double end = double(frame) * step;
     const std::uint64_t first = count_before(double(frame - 1) * step);
-    const std::uint64_t count = count_before(end) - first;
+    const std::uint64_t started = count_before(end) - first;
+    const std::uint64_t count = std::min(started, room);
     const std::size_t before = newborns.size();
     newborns.resize(before + count);
     for_each_block(count, 1024, [&](std::size_t begin, std::size_t last) {
@@ -42,6 +43,7 @@ void Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields
             newborns[before + i] = newborn(first + i, end, step, fields);
     });
     std::erase_if(newborns, [&](const Newborn& born) { return born.particle.expiry_frame <= frame; });
+    return started - count;
 }
 
 Newborn Emitter::newborn(std::uint64_t k, double end, double step, const UniformFields& fields) const

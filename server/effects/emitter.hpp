@@ -26,9 +26,10 @@ public:
     std::uint64_t count_before(double time) const;
 
     /// Appends the particles that start in frame `frame` (of length `step`, ending at frame * step), moved
-    /// to the frame's end in `fields`. Those whose lifetime ends within the frame are left out.
-    void emit(std::uint64_t frame, double step, const UniformFields& fields,
-              std::vector<Newborn>& newborns) const;
+    /// to the frame's end in `fields`. Those whose lifetime ends within the frame are left out, and so are
+    /// all after the first `room`; returns how many these are.
+    std::uint64_t emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
+                       std::vector<Newborn>& newborns) const;
 
     const EmitterSettings& settings() const { return settings_; }
 

@@ -46,6 +46,7 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);
     visit(Section{"uniform_wind", "Moving air; needs linear_drag."}, simulation.uniform_wind);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
+    visit(Section{"limits", "What the scene may grow to."}, simulation.limits);
 }
 
 /// Likewise for every table, in the order of the reference. The two are the only list of tables.

@@ -137,6 +137,7 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("motion", wanted.motion == present.motion);
     fixed("linear_drag", wanted.linear_drag == present.linear_drag);
     fixed("emitter", wanted.emitters == present.emitters);
+    fixed("limits", wanted.limits == present.limits);
     fixed("background", wanted.background == present.background);
     fixed("sharing", wanted.sharing == present.sharing);
     fixed("region", wanted.regions == present.regions);

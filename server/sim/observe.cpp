@@ -15,6 +15,18 @@ std::array<float, 6> covariance(const ClusterStore& store, std::size_t slot, std
 
 } // namespace
 
+void ClusterStates::clear()
+{
+    position.clear();
+    velocity.clear();
+    mass.clear();
+    count.clear();
+    covariance.clear();
+    id.clear();
+    formation.clear();
+    region.clear();
+}
+
 void Simulation::State::observe(const Request& request)
 {
     snapshot.frame = frame;
@@ -28,6 +40,8 @@ void Simulation::State::observe(const Request& request)
         snapshot.conserved = conserved_quantities(store, frame);
     if (request.clusters)
         copy_clusters();
+    else
+        snapshot.clusters.clear();
 }
 
 void Simulation::State::count_regions()

@@ -22,7 +22,7 @@ struct PlannedColumn {
 struct PlannedEffect {
     std::string_view name;
     bool active;
-    std::string_view acts_on_clusters; ///< "linear", "linearised" or "per member"
+    std::string_view acts_on_clusters; ///< "linear", "linearised", "per member", "births" or "deaths"
 };
 
 /// What a scene comes down to: the phases that run, and the columns that exist. Compiled once from the

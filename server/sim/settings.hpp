@@ -44,6 +44,14 @@ struct SharingSettings {
     friend bool operator==(const SharingSettings&, const SharingSettings&) = default;
 };
 
+/// What a scene may grow to.
+struct LimitSettings {
+    /// Emitters pause while there are so many particles; what they would have emitted is counted and lost.
+    std::uint64_t max_particles = 20'000'000;
+
+    friend bool operator==(const LimitSettings&, const LimitSettings&) = default;
+};
+
 /// All that the simulation needs to know of a scene. What is absent (an effect, an emitter) is not
 /// planned, run or allocated.
 struct SimulationSettings {
@@ -60,6 +68,7 @@ struct SimulationSettings {
     std::optional<LinearDragSettings> linear_drag;
     std::optional<UniformWindSettings> uniform_wind;
     std::vector<EmitterSettings> emitters;
+    LimitSettings limits;
 };
 
 /// Regions of interest at one time, besides the background.
@@ -89,6 +98,13 @@ void for_each_field(SharingSettings& sharing, Visitor&& visit)
 {
     visit(Field{"overlap", "", "Regions of interest may overlap; if not, one that does is refused."},
           sharing.overlap);
+}
+
+template <class Visitor>
+void for_each_field(LimitSettings& limits, Visitor&& visit)
+{
+    visit(Field{"max_particles", "particles", "Emitters pause while there are so many particles.", 0, 1e9},
+          limits.max_particles);
 }
 
 template <class Visitor>

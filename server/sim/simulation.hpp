@@ -54,7 +54,8 @@ public:
     /// acceleration and wind; which effects there are may not. Regions have functions of their own.
     Problems change_settings(const SimulationSettings& wanted);
 
-    /// One frame: one fixed time step. The snapshot is valid until the next call.
+    /// One frame: one fixed time step. The snapshot is valid until the next call. Throws std::overflow_error
+    /// with a remedy when something leaves the range of numbers; the simulation is of no use then.
     const Snapshot& step(const Request& request);
 
     /// The present state, filled as requested, without a step.
@@ -70,7 +71,8 @@ public:
     /// Every particle, mapped out of its cluster, ordered by id. O(particles).
     ParticleSet particles() const;
 
-    /// What breaks the invariants of clusters, members and tree; empty when nothing does. O(particles).
+    /// What is wrong with who is where: clusters in pools, pools in trees, members in clusters, bodies in the
+    /// force view; empty when nothing is. O(clusters).
     Problems problems() const;
 
 private:

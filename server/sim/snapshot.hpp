@@ -19,6 +19,7 @@ struct FrameCounts : UpdateCounts {
     std::uint64_t clusters = 0;
     std::uint64_t pools = 0;
     std::uint64_t born = 0;
+    std::uint64_t births_refused = 0; ///< there are as many particles as the scene may have
     std::uint64_t died = 0;
     std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
     std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
@@ -33,8 +34,9 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 14> event_counts{{
+inline constexpr std::array<EventCount, 15> event_counts{{
     {"born", &FrameCounts::born},
+    {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
     {"due_pools", &FrameCounts::due_pools},
     {"reformed_members", &FrameCounts::reformed_members},
@@ -51,7 +53,7 @@ inline constexpr std::array<EventCount, 14> event_counts{{
 }};
 
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is
-/// published, drawn and tested. Filled only when somebody asks for it.
+/// published, drawn and tested. Empty unless somebody asked for it in that frame.
 struct ClusterStates {
     std::vector<Vector3d> position; ///< centre of mass, scene length
     std::vector<Vector3d> velocity; ///< scene length / time
@@ -63,6 +65,7 @@ struct ClusterStates {
     std::vector<std::uint16_t> region;    ///< index of the region of interest
 
     std::size_t size() const { return position.size(); }
+    void clear(); ///< keeps the memory
 };
 
 /// What a region of interest holds.

@@ -160,7 +160,11 @@ void Simulation::State::emit()
 {
     if (plan.finite_lives)
         snapshot.counts.died = expiry.update(tree, context());
-    snapshot.counts.born = emission.update(tree, context(), plan.has(Phase::CloseKick));
+    const std::uint64_t left = particle_count - snapshot.counts.died;
+    const std::uint64_t room = settings.limits.max_particles - std::min(settings.limits.max_particles, left);
+    const Emission::Births births = emission.update(tree, context(), plan.has(Phase::CloseKick), room);
+    snapshot.counts.born = births.born;
+    snapshot.counts.births_refused = births.refused;
     particle_count += snapshot.counts.born - snapshot.counts.died;
     make_room(); // for the newborn
 }
@@ -200,6 +204,10 @@ Problems Simulation::State::problems() const
     if (members != particle_count)
         found.push_back("clusters hold " + std::to_string(members) + " particles of " +
                         std::to_string(particle_count));
+    if (plan.has(Phase::Moments)) {
+        const Problems of_view = slod::problems(view, store.clusters);
+        found.insert(found.end(), of_view.begin(), of_view.end());
+    }
     return found;
 }
 

@@ -60,7 +60,8 @@ struct Simulation::State {
     Tick tick;
     double gravitational_constant;
     UniformFields fields;
-    Propagator propagator; ///< of one frame
+    Propagator propagator;   ///< of one frame
+    std::uint64_t frame = 0; ///< frames completed, or being completed within a step
 
     ClusterStore store;
     SlodTree tree;
@@ -72,7 +73,6 @@ struct Simulation::State {
     ForceLists force_lists;
 
     bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
-    std::uint64_t frame = 0;   ///< frames completed, or being completed within a step
     std::uint64_t particle_count = 0;
     Snapshot snapshot;
 };

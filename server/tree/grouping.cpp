@@ -1,6 +1,8 @@
 #include "tree/grouping.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "core/assert.hpp"
 #include "core/make_room.hpp"
@@ -142,6 +144,13 @@ void form_groups(Grouping& grouping, const UpdateContext& context)
         for (std::size_t group = begin; group < end; ++group)
             form_group(grouping, grouping.groups[group], context);
     });
+}
+
+void refuse_unbounded(std::uint64_t frame)
+{
+    throw std::overflow_error("frame " + std::to_string(frame) +
+                              ": particles have left the range of numbers; use a smaller time.step, weaker "
+                              "forces, or a larger softening of the kinds");
 }
 
 void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters)

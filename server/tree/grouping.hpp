@@ -57,6 +57,9 @@ void form_groups(Grouping& grouping, const UpdateContext& context);
 /// Adds the clusters just formed to their groups' pools.
 void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters);
 
+/// Throws std::overflow_error: in this frame something was to be grouped whose place is no number.
+[[noreturn]] void refuse_unbounded(std::uint64_t frame);
+
 /// Clusters of at most ceil(size) particles that `count` particles are divided into.
 constexpr std::uint32_t clusters_for(std::uint32_t count, double size)
 {

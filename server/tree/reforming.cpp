@@ -1,6 +1,7 @@
 #include "tree/reforming.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 #include "core/assert.hpp"
@@ -174,12 +175,15 @@ void Reforming::find_targets(SlodTree& tree)
     const auto midway = [&](const Particle& particle, std::uint64_t life) -> Vector3d {
         return particle.position + (0.5 * context_.step * double(life)) * particle.velocity;
     };
+    std::atomic<bool> bounded{true};
     for_each_block(due_.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t d = begin; d < end; ++d) {
             const std::uint64_t life = tree.pool(due_[d].pool).life();
             for (std::uint32_t i = due_[d].first; i < due_[d].first + due_[d].count; ++i) {
                 const Particle& particle = grouping_.particles[i];
                 grouping_.place[i] = midway(particle, life);
+                if (!grouping_.place[i].allFinite())
+                    bounded = false;
                 target_[i] = locate(tree, subject_of(grouping_, i));
                 if (!target_[i].valid())
                     continue;
@@ -189,6 +193,8 @@ void Reforming::find_targets(SlodTree& tree)
             }
         }
     });
+    if (!bounded)
+        refuse_unbounded(context_.frame);
     for (const Due& due : due_) {
         const std::uint64_t life = tree.pool(due.pool).life();
         for (std::uint32_t i = due.first; i < due.first + due.count; ++i) {

@@ -107,6 +107,8 @@ void Regrouping::move_crossing(SlodTree& tree, UpdateCounts& counts)
 {
     ClusterTable& clusters = context_.store.clusters;
     for (const ClusterSlot slot : crossing_) {
+        if (!clusters.position[slot.index].allFinite())
+            refuse_unbounded(context_.frame);
         const PoolRef from{clusters.region[slot.index], clusters.pool[slot.index]};
         PoolRef to = targets_[slot.index];
         if (!to.valid())

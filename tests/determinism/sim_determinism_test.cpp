@@ -90,7 +90,7 @@ const std::map<std::string, std::uint64_t> pinned{
     {"flow", 0xe7391272855f4a5a},     {"flow_in_double", 0x7ee560a30f54efef}, {"stream", 0x222e875229583801},
     {"rigid", 0x16aa28631ffde53e},    {"unclustered", 0x543e18cb1cd23f0e},    {"walk", 0xf551d28c1a70b6f6},
     {"fountain", 0x5e3305b4732b4f5d}, {"rigid_fountain", 0x745cdaf076247503}, {"mixture", 0x566d9344f5589cc0},
-    {"regions", 0xcd6462a4be6d6d14},
+    {"regions", 0xcd6462a4be6d6d14},  {"full_fountain", 0x6dfdde38d023ebc1},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)

@@ -157,8 +157,8 @@ TEST_F(WirePublish, ALateJoinerGetsTheServersStateAtOnce)
     EXPECT_GT(meetings, 0);
 }
 
-// The child reads clusters and is frozen in the middle. Every offer is accepted, frames are published or
-// counted as skipped, DDS refuses nothing, another reader goes on; thawed, the child is back.
+// The child reads clusters and is frozen in the middle. Frames are published or counted as skipped, DDS
+// refuses nothing, another reader goes on; thawed, the child is back.
 TEST_F(WirePublish, AFrozenReaderDelaysNobody)
 {
     Publisher publisher(settings, made_up_session());
@@ -183,7 +183,6 @@ TEST_F(WirePublish, AFrozenReaderDelaysNobody)
         const Publisher::Counters now = publisher.counters();
         return now.frames_published + now.frames_skipped - before.frames_published - before.frames_skipped;
     };
-    EXPECT_EQ(publisher.counters().frames_offered - before.frames_offered, offers);
     EXPECT_TRUE(offer_until(publisher, reader, [&] { return reader.complete_frames() > frames_before + 5; }));
     EXPECT_GT(handled(), 0U);
     EXPECT_EQ(publisher.counters().samples_refused, 0U);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -51,7 +52,7 @@ public:
     {
         std::vector<Newborn> newborns;
         for (const Emitter& emitter : emitters_)
-            emitter.emit(frame, step_, UniformFields{}, newborns);
+            emitter.emit(frame, step_, UniformFields{}, std::numeric_limits<std::uint64_t>::max(), newborns);
         for (const Newborn& born : newborns) {
             const Particle& particle = born.particle;
             living_[particle.id] = {double(frame) * step_ - born.age,

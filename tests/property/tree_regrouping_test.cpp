@@ -47,7 +47,7 @@ public:
     }
 
     test::World world;
-    Regrouping regrouping{true, world.context(0)};
+    Regrouping regrouping{{}, true, world.context(0)};
     UpdateCounts counts;
     std::uint64_t frame = 0;
 };

@@ -22,7 +22,8 @@ ClusterStore empty_store(const MapRule& rule, const Features& features)
                         .tide = true,
                         .acceleration = true,
                         .counting_moments = features.masses,
-                        .expiry = features.expiry},
+                        .expiry = features.expiry,
+                        .withheld = features.withheld},
                        {.mass = features.masses, .kind = features.kinds, .expiry = features.expiry}, rule);
     store.uniform_mass = 1;
     store.kind_softening_squared = {0.01, 0.04, 0.16};

@@ -10,7 +10,7 @@ namespace slod::test {
 /// What the particles of a little world can have. Every column that a cluster can have is there anyway,
 /// the full map only where the rule asks for it.
 struct Features {
-    bool masses = true, kinds = false, expiry = false;
+    bool masses = true, kinds = false, expiry = false, withheld = false;
 };
 
 /// A store whose kinds 0, 1 and 2 have softenings 0.1, 0.2 and 0.4.

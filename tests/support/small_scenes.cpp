@@ -146,6 +146,8 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(clouds("walk", Motion::Flow, 8, 2000));
     scenes.back().settings.gravity->direct_below = 0;
     scenes.push_back(fountain("fountain", Motion::Flow));
+    scenes.push_back(fountain("full_fountain", Motion::Flow));
+    scenes.back().settings.limits.max_particles = 300;
     scenes.push_back(fountain("rigid_fountain", Motion::Rigid));
     scenes.push_back(fountain_of_regions());
     scenes.push_back(mixture());

@@ -1,3 +1,4 @@
+#include <limits>
 #include <map>
 #include <set>
 
@@ -10,6 +11,7 @@ namespace slod {
 namespace {
 
 constexpr double step = 0.02;
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 /// Emitters in uniform fields, whose clusters the scalar map follows exactly.
 class Fountain {
@@ -30,7 +32,10 @@ public:
         for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot)
             if (clusters.alive(slot))
                 propagator.apply(clusters.position[slot], clusters.velocity[slot]);
-        born += emission.update(world.tree, world.context(frame), false);
+        const std::uint64_t room = most > born ? most - born : 0;
+        const Emission::Births births = emission.update(world.tree, world.context(frame), false, room);
+        born += births.born;
+        refused += births.refused;
     }
 
     static std::vector<Emitter> emitters_of(const std::vector<EmitterSettings>& settings)
@@ -45,7 +50,8 @@ public:
     UniformFields fields;
     Emission emission;
     std::uint64_t frame = 0;
-    std::uint64_t born = 0;
+    std::uint64_t born = 0, refused = 0;
+    std::uint64_t most = unlimited; ///< particles
 };
 
 EmitterSettings jet(double per_frame)
@@ -133,7 +139,7 @@ TEST(Emission, ParticlesFollowTheirOwnPathsHoweverLongTheirCohortStaysOpen)
         for (auto& [id, particle] : expected)
             fields.over(step).apply(particle.position, particle.velocity);
         std::vector<Newborn> born;
-        emitter.emit(fountain.frame, step, fields, born);
+        emitter.emit(fountain.frame, step, fields, unlimited, born);
         for (const Newborn& newborn : born)
             expected[newborn.particle.id] = newborn.particle;
     }
@@ -156,7 +162,7 @@ TEST(Emission, NewClustersTellTheMeanAgeOfTheirMembers)
         std::map<std::uint64_t, double> age;
         for (const Emitter& emitter : emitters) {
             std::vector<Newborn> born;
-            emitter.emit(fountain.frame, step, {}, born);
+            emitter.emit(fountain.frame, step, {}, unlimited, born);
             for (const Newborn& newborn : born)
                 age[newborn.particle.id] = newborn.age;
         }
@@ -183,9 +189,9 @@ TEST(Emission, AKickedNewbornThatJoinsGetsTheRestOfItsOwnTime)
     const Vector3d pull{3, -2, 5};
     kicked.world.store.clusters.acceleration[0] = pull;
     std::vector<Newborn> born;
-    Fountain::emitters_of({jet(5)}).front().emit(2, step, {}, born);
-    kicked.emission.update(kicked.world.tree, kicked.world.context(2), true);
-    free.emission.update(free.world.tree, free.world.context(2), false);
+    Fountain::emitters_of({jet(5)}).front().emit(2, step, {}, unlimited, born);
+    kicked.emission.update(kicked.world.tree, kicked.world.context(2), true, unlimited);
+    free.emission.update(free.world.tree, free.world.context(2), false, unlimited);
     const ParticleSet with = test::members(kicked.world.store, 2),
                       without = test::members(free.world.store, 2);
     ASSERT_EQ(with.size(), 10U);
@@ -193,6 +199,36 @@ TEST(Emission, AKickedNewbornThatJoinsGetsTheRestOfItsOwnTime)
         const Vector3d gained = with[i].velocity - without[i].velocity;
         EXPECT_LE((gained - (born[i - 5].age - step / 2) * pull).norm(), 10 * 0x1p-24);
     }
+}
+
+// The first particles of a frame find room, in the order of the emitters; numbers go on as if all had come.
+TEST(Emission, WhatThereIsNoRoomForIsRefusedAndCounted)
+{
+    Fountain bounded({jet(5), jet(3)}), free({jet(5), jet(3)});
+    bounded.most = 20;
+    for (int frame = 0; frame < 5; ++frame) {
+        bounded.advance();
+        free.advance();
+    }
+    EXPECT_EQ(bounded.born, 20U);
+    EXPECT_EQ(bounded.refused, free.born - 20);
+    const ParticleSet some = test::members(bounded.world.store, bounded.frame),
+                      all = test::members(free.world.store, free.frame);
+    ASSERT_EQ(some.size(), 20U);
+    for (const Particle& particle : some) {
+        const auto same = [&](const Particle& other) { return other.id == particle.id; };
+        EXPECT_EQ(std::count_if(all.begin(), all.end(), same), 1) << particle.id;
+    }
+}
+
+// Far more particles than memory holds are asked for in one frame.
+TEST(Emission, AnAbsurdRateTakesNoMoreMemoryThanThereIsRoomFor)
+{
+    Fountain flood({jet(1e12)});
+    flood.most = 1000;
+    flood.advance();
+    EXPECT_EQ(flood.born, 1000U);
+    EXPECT_NEAR(double(flood.refused), 1e12, 1e4);
 }
 
 TEST(Emission, ACohortThatHasEndedIsNotJoined)

@@ -11,6 +11,8 @@
 namespace slod {
 namespace {
 
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double step = 0.02;
 
@@ -37,7 +39,7 @@ std::vector<Newborn> emit(const Emitter& emitter, std::uint64_t frames, double f
 {
     std::vector<Newborn> all;
     for (std::uint64_t frame = 1; frame <= frames; ++frame)
-        emitter.emit(frame, frame_length, fields, all);
+        emitter.emit(frame, frame_length, fields, unlimited, all);
     return all;
 }
 
@@ -49,7 +51,7 @@ TEST(Emitter, AFractionalRateIsMetToOneParticleAtEveryTime)
         const Emitter emitter = emitter_of(settings);
         std::vector<Newborn> all;
         for (std::uint64_t frame = 1; frame <= 200; ++frame) {
-            emitter.emit(frame, step, {}, all);
+            emitter.emit(frame, step, {}, unlimited, all);
             ASSERT_LE(std::abs(double(all.size()) - per_frame * double(frame)), 1) << "frame " << frame;
             ASSERT_EQ(all.size(), emitter.count_before(double(frame) * step));
         }
@@ -220,7 +222,7 @@ TEST(Emitter, AParticleIsThereAtTheFramesEndsWithinItsLifetime)
         std::size_t started = 0;
         for (std::uint64_t frame = 1; frame <= 50; ++frame) {
             std::vector<Newborn> all;
-            emitter_of(settings).emit(frame, step, {}, all);
+            emitter_of(settings).emit(frame, step, {}, unlimited, all);
             started += all.size();
             for (const Newborn& born : all) {
                 const double death = double(frame) * step - born.age + lifetime;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -235,6 +236,29 @@ TEST(Lifetimes, OfNoLengthOrNoRateGiveNoParticles)
     Simulation simulation(settings, {}, {});
     for (int frame = 0; frame < frame_count; ++frame)
         EXPECT_EQ(simulation.step({}).counts.particles, 0U);
+}
+
+TEST(SimulationStep, HandsOutClustersOfTheFramesTheyAreAskedForInAlone)
+{
+    Simulation simulation(attracting(8), stars_and_dust(30, 30), {});
+    EXPECT_EQ(simulation.step({.clusters = true}).clusters.size(), simulation.snapshot({}).counts.clusters);
+    EXPECT_EQ(simulation.step({}).clusters.size(), 0U);
+}
+
+TEST(SimulationStep, SaysSoWhenParticlesLeaveTheRangeOfNumbers)
+{
+    for (const Motion motion : {Motion::Flow, Motion::Rigid}) {
+        SimulationSettings settings = attracting(8);
+        settings.motion.motion = motion;
+        settings.gravity->strength = 1e30;
+        settings.time.step = motion == Motion::Flow ? 1e12 : 1e200;
+        Simulation simulation(settings, stars_and_dust(30, 30), {});
+        const auto run_on = [&] {
+            for (int frame = 0; frame < 100; ++frame)
+                simulation.step({});
+        };
+        EXPECT_THROW(run_on(), std::overflow_error) << names(motion)[std::size_t(motion)];
+    }
 }
 
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 class Hashed {
 public:
     explicit Hashed(std::uint32_t unused = 0)
-        : world({MapKind::Full, 0.1, 0.5}, {.masses = true, .kinds = true, .expiry = true},
+        : world({MapKind::Full, 0.1, 0.5}, {.masses = true, .kinds = true, .expiry = true, .withheld = true},
                 {.max_cluster_size = 16}, 4)
     {
         if (unused > 0)
@@ -78,6 +78,8 @@ std::vector<Value> plain_values(Hashed& state)
             value("speed_max", clusters.speed_max[2]),
             value("softening_squared", clusters.softening_squared[2]),
             value("next_expiry", clusters.next_expiry[2]),
+            value("withheld", clusters.withheld[2]),
+            value("pull", clusters.pull[2]),
             value("formed_frame", clusters.formed_frame[2]),
             value("formation", clusters.formation[2]),
             value("generation", clusters.generation[2]),

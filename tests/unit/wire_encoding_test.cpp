@@ -159,8 +159,10 @@ TEST(WireEncoding, DriftIsSinceTheFirstMeasurement)
     StatsEncoder encoder(session);
     const LoopStats loop{};
     Snapshot snapshot = made_up_snapshot(1, 1);
+    encoder.set_conserved(snapshot.conserved);
     encoder.encode(snapshot, loop, {});
     snapshot.conserved.kinetic_energy += 0.25;
+    encoder.set_conserved(snapshot.conserved);
     const wire::Stats& later = encoder.encode(snapshot, loop, {});
     EXPECT_TRUE(later.conserved_measured);
     EXPECT_EQ(later.drift.kinetic_energy, 0.25);
