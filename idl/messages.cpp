@@ -86,9 +86,15 @@ std::size_t wire_bytes(const RoiState& message)
     return sizeof(message) + bytes(message.settings);
 }
 
-std::size_t wire_bytes(const CommandReply& message)
+std::size_t wire_bytes(const Members& message)
 {
-    return sizeof(message);
+    return sizeof(message) + bytes(message.particle_id) + bytes(message.cluster_id) +
+           bytes(message.position) + bytes(message.velocity) + bytes(message.mass) + bytes(message.kind);
+}
+
+std::size_t wire_bytes(const Command& message)
+{
+    return sizeof(message) + bytes(message.settings);
 }
 
 } // namespace slod::wire

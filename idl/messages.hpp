@@ -93,6 +93,16 @@ std::size_t wire_bytes(const FrameManifest& message);
 std::size_t wire_bytes(const Stats& message);
 std::size_t wire_bytes(const ServerState& message);
 std::size_t wire_bytes(const RoiState& message);
-std::size_t wire_bytes(const CommandReply& message);
+std::size_t wire_bytes(const Members& message);
+std::size_t wire_bytes(const Command& message);
+
+/// Those without sequences.
+template <class Message>
+requires(std::is_same_v<Message, EffectStats> || std::is_same_v<Message, ErrorEstimate> ||
+         std::is_same_v<Message, Alarm> || std::is_same_v<Message, CommandReply> ||
+         std::is_same_v<Message, View>) constexpr std::size_t wire_bytes(const Message& message)
+{
+    return sizeof(message);
+}
 
 } // namespace slod::wire

@@ -46,17 +46,21 @@ StreamMeter::Report StreamMeter::report(Clock::time_point now) const
     std::size_t count = 0;
     std::size_t window_bytes = 0;
     Clock::time_point first{}, last{};
+    Clock::duration longest_gap{};
     for (; count < std::min<std::uint64_t>(received_, remembered); ++count) {
         const Arrival& arrival = arrivals_[(received_ - 1 - count) % remembered];
         if (arrival.when < now - window)
             break;
         latencies[count] = arrival.latency_ms;
         window_bytes += arrival.bytes;
+        if (count > 0)
+            longest_gap = std::max(longest_gap, first - arrival.when);
         first = arrival.when;
         last = std::max(last, arrival.when);
     }
     const std::span<double> sorted(latencies.data(), count);
     std::sort(sorted.begin(), sorted.end());
+    report.longest_gap_ms = std::chrono::duration<double, std::milli>(longest_gap).count();
     report.latency_p50_ms = percentile(sorted, 0.5);
     report.latency_p99_ms = percentile(sorted, 0.99);
     const double seconds = std::chrono::duration<double>(last - first).count();

@@ -23,12 +23,13 @@ public:
         std::uint64_t bytes = 0;   ///< received
         double rate_hz = 0;        ///< over the last two seconds
         double bytes_per_s = 0;    ///< over the last two seconds
+        double longest_gap_ms = 0; ///< between samples of the last two seconds
         double latency_p50_ms = 0; ///< of the last two seconds' samples, from the write to the read
         double latency_p99_ms = 0;
     };
 
-    /// A sample was read, `latency` after it was written: number `serial` of its stream, which is the region
-    /// in topics that have one and else empty.
+    /// A sample was read, `latency` after it was written: number `serial` of its stream (0: they have
+    /// none), which is the region in topics that have one and else empty.
     void on_sample(std::string_view stream, std::uint64_t serial, std::size_t bytes,
                    std::chrono::nanoseconds latency, Clock::time_point now);
 

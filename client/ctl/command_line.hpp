@@ -29,10 +29,12 @@ struct CommandLine {
     double timeout_s = 3; ///< for a server, and for the answer
     std::uint32_t domain = 0;
     wire::Profile profile = wire::Profile::Loopback;
-    std::uint64_t count = 0;        ///< watch: updates; 0: until stopped
+    std::uint64_t count = 0;        ///< updates, or samples of echo; 0: until stopped
     bool clusters = false;          ///< watch: receive the cluster states too
     bool best_effort = false;       ///< watch: do not ask again for lost fragments of them
     std::vector<std::string> names; ///< stats: values to print; empty: all
+    std::string topic;              ///< echo, hz, bw, latency
+    std::string region;             ///< likewise: of this region alone; empty: all
     client::CommandRequest request; ///< of what steers; roi list and show: without a kind
 };
 

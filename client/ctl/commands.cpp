@@ -28,6 +28,34 @@ void declare_stats(CLI::App& app, CommandLine& line)
                    "Values to print, such as work_ms or phases_ms.forces; without it, all");
 }
 
+void declare_topic(CLI::App& app, CommandLine& line)
+{
+    app.add_option("TOPIC", line.topic, "Such as clusters, stats or roi_state; slod/v1/ may stand before it")
+        ->required();
+    app.add_option("--region", line.region, "Of topics by region: this one alone; without it, all")
+        ->option_text("NAME");
+}
+
+void declare_traffic(CLI::App& app, CommandLine& line)
+{
+    declare_topic(app, line);
+    app.add_option("--count", line.count, "End after so many seconds; without it, on Ctrl-C")
+        ->check(CLI::PositiveNumber)
+        ->option_text("N");
+}
+
+void declare_echo(CLI::App& app, CommandLine& line)
+{
+    declare_topic(app, line);
+    CLI::Option* const count =
+        app.add_option("--count", line.count, "End after so many samples; without it, on Ctrl-C")
+            ->check(CLI::PositiveNumber)
+            ->option_text("N");
+    app.add_flag_callback(
+           "--once", [&line] { line.count = 1; }, "End after one sample")
+        ->excludes(count);
+}
+
 constexpr std::array all_commands{
     CommandEntry{"status", "Say which server there is, what it runs and whether it is live or stalled.",
                  declare_nothing, run_status},
@@ -35,6 +63,12 @@ constexpr std::array all_commands{
                  declare_watch, run_watch},
     CommandEntry{"stats", "Print the statistics of one frame: times by phase, counts, conserved quantities.",
                  declare_stats, run_stats},
+    CommandEntry{"hz", "Measure how often samples of a topic arrive, and how many are lost.", declare_traffic,
+                 run_traffic},
+    CommandEntry{"bw", "Measure the bytes of a topic's samples.", declare_traffic, run_traffic},
+    CommandEntry{"latency", "Measure the time from the write to the read of a topic's samples.",
+                 declare_traffic, run_traffic},
+    CommandEntry{"echo", "Print the samples of a topic as they arrive.", declare_echo, run_echo},
     CommandEntry{"roi", "List, show, add, move, resize, set and remove regions of interest.", declare_roi,
                  run_roi},
     CommandEntry{"pause", "Stop the passage of scene time.", declare_simple, run_steering},

@@ -30,5 +30,9 @@ ExitCode run_roi(const CommandLine& line, const std::stop_token& stop);
 /// Sends the request and waits for its answer, which it prints.
 ExitCode run_steering(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
+ExitCode run_echo(const CommandLine& line, const std::stop_token& stop);
+
+/// hz, bw and latency of a topic, once a second.
+ExitCode run_traffic(const CommandLine& line, const std::stop_token& stop);
 
 } // namespace slod::ctl

@@ -167,7 +167,7 @@ void declare_roi(CLI::App& app, CommandLine& line)
 {
     CommandRequest& request = line.request;
     app.require_subcommand(1);
-    action(app, line, "list", "Print all regions, one line each.", "");
+    action(app, line, "list", "Print all regions, one line each, in the order of their names.", "");
     region_action(app, line, "show", "Print one region.", "");
     declare_add(app, line);
     CLI::App* const move = change_action(app, line, "move", "Give a region another centre.", "move_roi");

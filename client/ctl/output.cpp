@@ -36,9 +36,24 @@ Json number(double value)
     return std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value);
 }
 
-/// A number with six digits, which is what one reads; everything else as JSON has it, without quotes.
+/// A number with six digits, which is what one reads, and of a long list the beginning and how long it is;
+/// everything else as JSON has it, without quotes.
 std::string text_of(const Json& value)
 {
+    constexpr std::size_t shown = 6, long_list = 16;
+    if (value.is_array() && value.size() > long_list) {
+        std::string text;
+        for (std::size_t i = 0; i < shown; ++i)
+            text += text_of(value[i]) + ", ";
+        return "[" + text + "... " + std::to_string(value.size()) + " in all]";
+    }
+    if (value.is_array() &&
+        std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_number(); })) {
+        std::string text;
+        for (const Json& element : value)
+            text += (text.empty() ? "" : ",") + text_of(element);
+        return text;
+    }
     if (value.is_string())
         return value.get<std::string>();
     if (!value.is_number_float())
@@ -128,6 +143,7 @@ Json json_of(const client::StreamMeter::Report& traffic)
             {"bytes", traffic.bytes},
             {"rate_hz", traffic.rate_hz},
             {"bytes_per_s", traffic.bytes_per_s},
+            {"longest_gap_ms", traffic.longest_gap_ms},
             {"latency_p50_ms", traffic.latency_p50_ms},
             {"latency_p99_ms", traffic.latency_p99_ms}};
 }
@@ -162,17 +178,51 @@ Json json_of(const client::RegionInfo& region)
 
 void print(const Json& object, bool as_json)
 {
-    if (as_json) {
+    if (as_json)
         std::puts(object.dump().c_str());
-    } else {
-        const Fields fields = fields_of(object);
-        std::size_t width = 0;
-        for (const auto& [name, value] : fields)
-            width = std::max(width, name.size());
-        for (const auto& [name, value] : fields)
-            std::printf("%-*s  %s\n", int(width), name.c_str(), value.c_str());
-    }
+    else
+        for (const std::string& line : lines_of(object))
+            std::puts(line.c_str());
     std::fflush(stdout);
+}
+
+std::vector<std::string> lines_of(const Json& object)
+{
+    const Fields fields = fields_of(object);
+    std::size_t width = 0;
+    for (const auto& [name, value] : fields)
+        width = std::max(width, name.size());
+    std::vector<std::string> lines;
+    for (const auto& [name, value] : fields)
+        lines.push_back(name + std::string(width - name.size() + 2, ' ') + value);
+    return lines;
+}
+
+void print_table(const std::vector<Json>& rows)
+{
+    std::vector<std::vector<std::string>> table;
+    for (const Json& row : rows) {
+        std::vector<std::string> names, cells;
+        for (const auto& [name, value] : row.items()) {
+            names.push_back(name);
+            cells.push_back(text_of(value));
+        }
+        if (table.empty())
+            table.push_back(std::move(names));
+        table.push_back(std::move(cells));
+    }
+    for (const std::vector<std::string>& cells : table) {
+        std::string line;
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            std::size_t width = 0;
+            for (const std::vector<std::string>& other : table)
+                width = std::max(width, other[column].size());
+            line += cells[column];
+            if (column + 1 < cells.size())
+                line.append(width - cells[column].size() + 2, ' ');
+        }
+        print_line(line);
+    }
 }
 
 void print_line(const std::string& line)

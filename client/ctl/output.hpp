@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,13 @@ Json json_of(const client::StreamMeter::Report& traffic);
 
 /// Prints a JSON object, or its fields with dotted names one per line, to stdout and flushes it.
 void print(const Json& object, bool as_json);
+
+/// Its fields with dotted names, one per line.
+std::vector<std::string> lines_of(const Json& object);
+
+/// Prints objects with the same fields, a line each below the fields' names; the text goes as --centre and
+/// the like take it.
+void print_table(const std::vector<Json>& rows);
 
 /// Prints one line to stdout.
 void print_line(const std::string& line);

@@ -18,12 +18,14 @@ Json summary_of(const client::RegionInfo& region)
 
 ExitCode print_all(const client::Connection& connection, bool as_json)
 {
+    std::vector<Json> rows;
     for (const auto& [name, region] : connection.regions()) {
         if (as_json)
             print(json_of(region), true);
         else
-            print_line(one_line(summary_of(region)));
+            rows.push_back(summary_of(region));
     }
+    print_table(rows);
     return ExitCode::Success;
 }
 

@@ -43,19 +43,37 @@ std::size_t terminal_width()
     return terminal ? size.ws_col : 0;
 }
 
-void show(const Json& update, bool as_json)
-{
-    const std::size_t width = terminal_width();
-    if (as_json) {
-        print(update, true);
-    } else if (width > 0) {
-        constexpr const char* line_start_and_clear = "\r\033[K";
-        std::printf("%s%s", line_start_and_clear, one_line(update).substr(0, width - 1).c_str());
-    } else {
-        std::puts(one_line(update).c_str());
+/// Shows updates one below the other, or on a terminal each in the place of the one before.
+class Display {
+public:
+    explicit Display(bool as_json) : as_json_(as_json) {}
+
+    void show(const Json& update)
+    {
+        const std::size_t width = terminal_width();
+        if (as_json_)
+            print(update, true);
+        else if (width == 0)
+            print_line(one_line(update));
+        else
+            redraw(update, width);
+        std::fflush(stdout);
     }
-    std::fflush(stdout);
-}
+
+private:
+    void redraw(const Json& update, std::size_t width)
+    {
+        if (lines_ > 0)
+            std::printf("\033[%zuA\033[J", lines_); // up so many lines, and clear from there
+        const std::vector<std::string> lines = lines_of(update);
+        for (const std::string& line : lines)
+            print_line(line.substr(0, width - 1));
+        lines_ = lines.size();
+    }
+
+    bool as_json_;
+    std::size_t lines_ = 0; ///< on the terminal
+};
 
 } // namespace
 
@@ -68,16 +86,15 @@ ExitCode run_watch(const CommandLine& line, const std::stop_token& stop)
     client::Connection connection(line.domain, line.profile, subscription);
     if (!wait_for_server(connection, stop, deadline(line)))
         return ExitCode::NoServer;
+    Display display(line.json);
     client::Clock::time_point next = client::Clock::now();
     for (std::uint64_t update = 0; line.count == 0 || update < line.count; ++update) {
         next += update_period;
         wait_until(connection, stop, next, [] { return false; });
         if (stop.stop_requested())
             break;
-        show(update_of(connection, line.clusters), line.json);
+        display.show(update_of(connection, line.clusters));
     }
-    if (!line.json && terminal_width() > 0)
-        std::puts("");
     if (stop.stop_requested())
         return ExitCode::Success;
     if (connection.status().contact == client::Contact::NoServer) {

@@ -1,6 +1,7 @@
 #include "e2e/wire_support.hpp"
 
 #include <chrono>
+#include <iterator>
 #include <signal.h>
 #include <sstream>
 #include <string>
@@ -123,6 +124,59 @@ TEST_F(WireSlodctl, WatchPrintsOneLineForEachUpdate)
     EXPECT_GT(updates[1].at("receive").at("received"), 0);
 }
 
+TEST_F(WireSlodctl, EchoPrintsSamplesOfATopicAsTheyCame)
+{
+    const Child server(source("0"));
+    Child once(slodctl({"echo", "clusters", "--once", "--json", "--timeout", "30"}));
+    ASSERT_EQ(once.wait(), int(ExitCode::Success)) << once.errors();
+    const std::vector<json> samples = objects(once.output());
+    ASSERT_EQ(samples.size(), 1U);
+    EXPECT_EQ(samples[0].at("mass").size(), 100U);
+    EXPECT_EQ(samples[0].at("position").size(), 300U);
+    Child some(slodctl({"echo", "slod/v1/server_state", "--count", "3", "--json", "--timeout", "30"}));
+    ASSERT_EQ(some.wait(), int(ExitCode::Success)) << some.errors();
+    const std::vector<json> states = objects(some.output());
+    ASSERT_EQ(states.size(), 3U);
+    EXPECT_GT(states[2].at("heartbeat"), states[0].at("heartbeat"));
+}
+
+TEST_F(WireSlodctl, EchoOfWhatDoesNotComeTimesOut)
+{
+    const Child server(source("0"));
+    Child silent(slodctl({"echo", "members", "--once", "--timeout", "2"}));
+    EXPECT_EQ(silent.wait(), int(ExitCode::TimedOut));
+    EXPECT_NE(silent.errors().find("--timeout"), std::string::npos);
+}
+
+TEST_F(WireSlodctl, AnUnknownTopicIsNotFoundAndTheKnownOnesAreNamed)
+{
+    for (const char* command : {"echo", "hz", "bw", "latency"}) {
+        Child child(slodctl({command, "lunch"}));
+        EXPECT_EQ(child.wait(), int(ExitCode::NotFound)) << command;
+        EXPECT_NE(child.errors().find("clusters, overview"), std::string::npos) << command;
+    }
+}
+
+// The source offers frames as fast as the rate of clusters lets it: 30 a second.
+TEST_F(WireSlodctl, HzBwAndLatencyMeasureATopic)
+{
+    const Child server(source("0"));
+    const auto measured = [&](const char* command) {
+        Child child(slodctl({command, "clusters", "--count", "2", "--json", "--timeout", "30"}));
+        EXPECT_EQ(child.wait(), int(ExitCode::Success)) << child.errors();
+        const std::vector<json> updates = objects(child.output());
+        EXPECT_EQ(updates.size(), 2U) << command;
+        return updates.back();
+    };
+    const json hz = measured("hz");
+    EXPECT_GT(hz.at("received"), 0);
+    EXPECT_GT(hz.at("rate_hz"), 0);
+    const json bw = measured("bw");
+    EXPECT_GE(bw.at("mean_bytes"), 100 * (3 + 3 + 1 + 1 + 6 + 2 + 2) * 4);
+    EXPECT_GT(bw.at("bytes_per_s"), 0);
+    EXPECT_GT(measured("latency").at("latency_p50_ms"), 0);
+}
+
 TEST_F(WireSlodctl, WatchEndsCleanlyOnCtrlC)
 {
     const Child server(source("0"));
@@ -136,8 +190,11 @@ TEST_F(WireSlodctl, WatchEndsCleanlyOnCtrlC)
 
 TEST_F(WireSlodctl, WithoutAServerEveryCommandSaysSo)
 {
-    for (const char* command : {"status", "watch", "stats"}) {
-        Child child(slodctl({command, "--timeout", "0.2"}));
+    for (const std::string command : {"status", "watch", "stats", "echo stats", "hz stats"}) {
+        std::istringstream words(command);
+        std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+        arguments.insert(arguments.end(), {"--timeout", "0.2"});
+        Child child(slodctl(arguments));
         EXPECT_EQ(child.wait(), int(ExitCode::NoServer)) << command;
         EXPECT_EQ(child.output(), "") << command;
         EXPECT_NE(child.errors().find("start slod-server"), std::string::npos) << command;
