@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -32,8 +31,7 @@ int thread_count(const ServerSettings& settings)
 
 Simulation::Options options(const ServerSettings& settings)
 {
-    const bool any = settings.isa == "auto";
-    return {.isa = any ? std::string_view() : settings.isa,
+    return {.isa = names(settings.isa)[std::size_t(settings.isa)],
             .tick = [] { return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(); }};
 }
 

@@ -7,6 +7,7 @@
 
 #include "scene/kinds.hpp"
 #include "scene/value_text.hpp"
+#include "simd/kernels.hpp"
 
 namespace slod {
 
@@ -60,6 +61,18 @@ void check_encounter(const EncounterSettings& encounter, Problems& found)
                         "; use at most that.");
 }
 
+void check_instruction_set(const ServerSettings& server, Problems& found)
+{
+    const std::string_view name = names(server.isa)[std::size_t(server.isa)];
+    if (simd::kernels(name) != nullptr)
+        return;
+    std::string runnable(names(InstructionSet::Auto).front());
+    for (const simd::KernelTable* table : simd::runnable_kernels())
+        runnable += ", " + std::string(table->name);
+    found.push_back("server.isa = " + string_text(name) + " does not run on this processor; use one of " +
+                    runnable + ".");
+}
+
 } // namespace
 
 Problems problems(const Scene& scene)
@@ -70,6 +83,7 @@ Problems problems(const Scene& scene)
         check_galaxy(scene, found);
     if (pair)
         check_encounter(scene.encounter, found);
+    check_instruction_set(scene.server, found);
     if (scene.initial.fallback == InitialModel::Gadget2)
         found.push_back("initial.fallback = \"gadget2\" is what it would fall back from; use none, galaxy or "
                         "galaxy_pair.");

@@ -2,18 +2,31 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "core/settings.hpp"
 
 namespace slod {
 
+/// Kernels by the instruction set that they need.
+enum class InstructionSet : std::uint8_t {
+    Auto, ///< the fastest that runs on this processor
+    Baseline,
+    V3,
+    V4,
+};
+
+/// As in simd::kernels().
+constexpr std::array<std::string_view, 4> names(InstructionSet)
+{
+    return {"auto", "baseline", "v3", "v4"};
+}
+
 /// How the server runs a scene; the simulation's outcome does not depend on it.
 struct ServerSettings {
     double frame_rate = 30;    ///< frames per second of wall time that the pacer holds
     std::uint32_t threads = 0; ///< 0: one per core
-    std::string isa = "auto";  ///< instruction set of the kernels
+    InstructionSet isa = InstructionSet::Auto;
 };
 
 /// Where the wire reaches.
@@ -45,7 +58,8 @@ void for_each_field(ServerSettings& server, Visitor&& visit)
     visit(Field{"frame_rate", "Hz", "Frames per second that the server paces itself to.", 0.01, 10000},
           server.frame_rate);
     visit(Field{"threads", "", "Worker threads; 0 is one per core.", 0, 1024}, server.threads);
-    visit(Field{"isa", "", "Instruction set of the kernels: auto, baseline, v3 or v4."}, server.isa);
+    visit(Field{"isa", "", "Instruction set of the kernels; auto is the fastest that runs here."},
+          server.isa);
 }
 
 template <class Visitor>

@@ -67,7 +67,8 @@ TEST_F(Server, RefusesWrongSettingsOnTheCommandLine)
 {
     for (const Arguments& wrong :
          {Arguments{"--set", "time.step=-1"}, Arguments{"--threads", "5000"}, Arguments{"--domain", "999"},
-          Arguments{"--set", "no.such.key=1"}, Arguments{"--input", (folder_ / "none.gadget2").string()}}) {
+          Arguments{"--set", "no.such.key=1"}, Arguments{"--set", "server.isa=avx9"},
+          Arguments{"--input", (folder_ / "none.gadget2").string()}}) {
         Arguments arguments{scene_, "--no-dds", "--frames", "1"};
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());
         const ServerRun run = run_server(arguments);

@@ -1,6 +1,10 @@
 #include "scene_support.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/scene_check.hpp"
+#include "simd/kernels.hpp"
 
 namespace slod::test {
 
@@ -200,6 +204,31 @@ TEST(SceneCheck, AnEncounterStartsApartAndFartherThanItsPericentre)
         only_says(problems(scene), {"encounter.pericentre = 8.0 is larger than encounter.separation = 5.0"}));
     scene.encounter = {.separation = 0, .pericentre = 0};
     EXPECT_TRUE(only_says(problems(scene), {"encounter.separation = 0.0"}));
+}
+
+// The names that are left are those of the kernels that run here, whichever processor this is.
+TEST(SceneCheck, AnInstructionSetThatDoesNotRunHereIsRefusedWithThoseThatDo)
+{
+    Scene scene = starting_with(InitialModel::Galaxy);
+    std::string runnable = "auto";
+    for (const simd::KernelTable* table : simd::runnable_kernels())
+        runnable += ", " + std::string(table->name);
+    for (std::size_t row = 0; row < names(InstructionSet{}).size(); ++row) {
+        scene.server.isa = InstructionSet(row);
+        const std::string name(names(InstructionSet{})[row]);
+        if (simd::kernels(name) != nullptr)
+            EXPECT_TRUE(problems(scene).empty()) << name;
+        else
+            EXPECT_TRUE(only_says(problems(scene), {"server.isa = \"" + name + "\" does not run",
+                                                    "use one of " + runnable + "."}));
+    }
+}
+
+TEST(SceneCheck, EveryKernelHasItsInstructionSetAmongTheSettings)
+{
+    const auto all = names(InstructionSet{});
+    for (const simd::KernelTable* table : simd::runnable_kernels())
+        EXPECT_NE(std::find(all.begin(), all.end(), table->name), all.end()) << table->name;
 }
 
 TEST(SceneCheck, AFileIsNoFallbackForAFile)

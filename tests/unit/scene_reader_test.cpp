@@ -103,7 +103,8 @@ TEST(SceneReader, AValueOfTheWrongTypeIsRefusedForEveryType)
                           {"s.toml:6: wire.domain = 1.0 is no integer; use 0 to 230, without point"}));
     EXPECT_TRUE(only_says(faulty("[wire]\nprofile = 1\n"),
                           {"s.toml:6: wire.profile = 1 is no string; use one of loopback, lan."}));
-    EXPECT_TRUE(only_says(faulty("[server]\nisa = true\n"), {"s.toml:6: server.isa = true is no string"}));
+    EXPECT_TRUE(only_says(faulty("[server]\nisa = true\n"),
+                          {"s.toml:6: server.isa = true is no string; use one of auto, baseline, v3, v4."}));
     EXPECT_TRUE(
         only_says(faulty("[uniform_gravity]\nacceleration = 9.81\n"),
                   {"s.toml:6: uniform_gravity.acceleration = 9.81 is no vector; write three numbers"}));

@@ -162,6 +162,7 @@ Scene random_scene(std::uint64_t seed)
         simulation.motion.merged_velocities = MergedVelocities::Keep;
         simulation.motion.build_respects_limits = false;
     }
+    scene.server.isa = InstructionSet(scrambler.below(2)); // the others do not run everywhere
     scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;
     scene.initial.fallback = InitialModel::None;
     if (scene.initial.model == InitialModel::None)
