@@ -1,16 +1,10 @@
 #include "app/job.hpp"
 
-#include <cerrno>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include "app/output_file.hpp"
 #include "app/settings_json.hpp"
 #include "idl/version.hpp"
 #include "sim/plan.hpp"
@@ -18,47 +12,14 @@
 namespace slod {
 namespace {
 
-std::string text_of(const std::filesystem::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A scene's text in a file of its own while it is read.
-class SceneCopy {
-public:
-    SceneCopy(const std::string& name, const std::string& text)
-    {
-        std::string folder = (std::filesystem::temp_directory_path() / "slod-replay-XXXXXX").string();
-        if (::mkdtemp(folder.data()) == nullptr)
-            throw std::system_error(errno, std::generic_category(), "cannot make " + folder);
-        folder_ = folder;
-        file_ = folder_ / std::filesystem::path(name).filename();
-        OutputFile(file_).commit(text);
-    }
-    ~SceneCopy()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    SceneCopy(const SceneCopy&) = delete;
-    SceneCopy& operator=(const SceneCopy&) = delete;
-
-    const std::filesystem::path& file() const { return file_; }
-
-private:
-    std::filesystem::path folder_;
-    std::filesystem::path file_;
-};
-
-/// Loads a scene as the header's settings and the command line's placement say, and its particles from
-/// `input`, if that is not empty.
-std::variant<Job, Problems> load(const std::filesystem::path& scene_file, const std::filesystem::path& input,
+/// Loads the header's scene as its settings and the command line's placement say, and its particles from
+/// `input`, if that is not empty. Problems name the scene's file as `scene_name`.
+std::variant<Job, Problems> load(const std::string& scene_name, const std::filesystem::path& input,
                                  InputLogHeader origin, const CommandLine& line)
 {
     std::vector<std::string> overrides = origin.settings;
     overrides.insert(overrides.end(), line.placement.begin(), line.placement.end());
-    auto scene = load_scene(scene_file, overrides);
+    auto scene = load_scene({.name = scene_name, .text = origin.scene_text}, overrides);
     if (auto* found = std::get_if<Problems>(&scene))
         return std::move(*found);
     auto initial = load_initial(std::get<Scene>(scene), input);
@@ -74,10 +35,14 @@ std::variant<Job, Problems> load(const std::filesystem::path& scene_file, const 
 
 std::variant<Job, Problems> load_new(const CommandLine& line)
 {
-    auto loaded = load(line.scene, line.input,
+    auto read = read_scene_text(line.scene);
+    if (auto* found = std::get_if<Problems>(&read))
+        return std::move(*found);
+    auto& scene = std::get<SceneText>(read);
+    auto loaded = load(scene.name, line.input,
                        {.version = std::string(version()),
                         .scene_name = line.scene.filename(),
-                        .scene_text = text_of(line.scene),
+                        .scene_text = std::move(scene.text),
                         .settings = line.settings,
                         .input = {},
                         .initial_source = {},
@@ -115,8 +80,7 @@ std::variant<Job, Problems> load_replay(const CommandLine& line)
     if (Problems found = problems(line.replay, log); !found.empty())
         return found;
 
-    const SceneCopy scene(log.header.scene_name, log.header.scene_text);
-    auto loaded = load(scene.file(), log.header.input, log.header, line);
+    auto loaded = load(log.header.scene_name, log.header.input, log.header, line);
     if (auto* job = std::get_if<Job>(&loaded)) {
         if (content_hash(job->initial.particles) != log.header.initial_hash)
             return Problems{line.replay.string() +

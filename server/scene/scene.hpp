@@ -23,8 +23,20 @@ struct Scene {
     WireSettings wire;
 };
 
-/// Reads a scene file and then the overrides, "table.key=value" with a TOML value, one each. Every problem
-/// is reported, each with file, line, key, value and remedy. Nothing else is read or changed.
+/// A scene file as it stands. A pipe gives its text but once.
+struct SceneText {
+    std::string name; ///< of the file, for problems
+    std::string text; ///< TOML
+};
+
+/// Reads the file's text, which is at most 16 MiB.
+std::variant<SceneText, Problems> read_scene_text(const std::filesystem::path& file);
+
+/// Reads a scene and then the overrides, "table.key=value" with a TOML value, one each. Every problem is
+/// reported, each with file, line, key, value and remedy. Nothing else is read or changed.
+std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides);
+
+/// Likewise, from the file.
 std::variant<Scene, Problems> load_scene(const std::filesystem::path& file,
                                          const std::vector<std::string>& overrides);
 

@@ -14,41 +14,12 @@ namespace {
 /// Starts the source of whatever an override wrote.
 constexpr std::string_view override_mark = "--set ";
 
-std::optional<std::string> file_text(const std::filesystem::path& file, Problems& found)
+std::optional<toml::table> parse_text(const SceneText& scene, Problems& found)
 {
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    std::string why;
-    std::string text;
-    if (!std::filesystem::exists(status)) {
-        why = "there is no such file; name a scene file.";
-    } else if (std::filesystem::is_directory(status)) {
-        why = "this is a folder; name a scene file in it.";
-    } else {
-        std::ifstream stream(file, std::ios::binary);
-        std::array<char, 1U << 14> chunk{};
-        while (text.size() <= max_scene_file_bytes && stream.read(chunk.data(), chunk.size()).gcount() > 0)
-            text.append(chunk.data(), std::size_t(stream.gcount()));
-        if (!stream.is_open() || stream.bad())
-            why = "the file cannot be read; check its permissions.";
-        else if (text.size() > max_scene_file_bytes)
-            why = "longer than " + std::to_string(max_scene_file_bytes) + " bytes; name a scene file.";
-    }
-    if (why.empty())
-        return text;
-    found.push_back(file.string() + ": " + why);
-    return {};
-}
-
-std::optional<toml::table> parse_file(const std::filesystem::path& file, Problems& found)
-{
-    const auto text = file_text(file, found);
-    if (!text)
-        return {};
     try {
-        return toml::parse(*text, file.string());
+        return toml::parse(scene.text, scene.name);
     } catch (const toml::parse_error& failure) {
-        found.push_back(file.string() + ":" + std::to_string(failure.source().begin.line) +
+        found.push_back(scene.name + ":" + std::to_string(failure.source().begin.line) +
                         ": not TOML: " + std::string(failure.description()) + ".");
         return {};
     }
@@ -197,10 +168,44 @@ toml::table parse_assignment(const std::string& key, const std::string& value, c
     return toml::parse(key + " = " + string_text(value), origin);
 }
 
-std::optional<toml::table> read_document(const std::filesystem::path& file,
-                                         const std::vector<std::string>& overrides, Problems& found)
+Problems one_line_each(Problems found)
 {
-    auto root = parse_file(file, found);
+    for (std::string& problem : found)
+        std::replace_if(
+            problem.begin(), problem.end(),
+            [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+    return found;
+}
+
+std::variant<SceneText, Problems> read_scene_text(const std::filesystem::path& file)
+{
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    std::string why;
+    std::string text;
+    if (!std::filesystem::exists(status)) {
+        why = "there is no such file; name a scene file.";
+    } else if (std::filesystem::is_directory(status)) {
+        why = "this is a folder; name a scene file in it.";
+    } else {
+        std::ifstream stream(file, std::ios::binary);
+        std::array<char, 1U << 14> chunk{};
+        while (text.size() <= max_scene_file_bytes && stream.read(chunk.data(), chunk.size()).gcount() > 0)
+            text.append(chunk.data(), std::size_t(stream.gcount()));
+        if (!stream.is_open() || stream.bad())
+            why = "the file cannot be read; check its permissions.";
+        else if (text.size() > max_scene_file_bytes)
+            why = "longer than " + std::to_string(max_scene_file_bytes) + " bytes; name a scene file.";
+    }
+    if (!why.empty())
+        return one_line_each({file.string() + ": " + why});
+    return SceneText{.name = file.string(), .text = std::move(text)};
+}
+
+std::optional<toml::table> read_document(const SceneText& scene, const std::vector<std::string>& overrides,
+                                         Problems& found)
+{
+    auto root = parse_text(scene, found);
     if (root)
         for (const std::string& text : overrides)
             apply(*root, text, found);

@@ -148,33 +148,31 @@ private:
     std::set<std::string> faulty_;
 };
 
-/// Names and values may hold any character; a problem is one line of a log.
-Problems one_line_each(Problems found)
-{
-    for (std::string& problem : found)
-        std::replace_if(
-            problem.begin(), problem.end(),
-            [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return found;
-}
-
 } // namespace
 
-std::variant<Scene, Problems> load_scene(const std::filesystem::path& file,
-                                         const std::vector<std::string>& overrides)
+std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides)
 {
     Problems found;
-    const auto document = read_document(file, overrides, found);
+    const auto document = read_document(text, overrides, found);
     if (!document)
         return one_line_each(std::move(found));
 
     Scene scene;
     SceneReader reader(std::move(found));
     reader.read(*document, scene);
-    reader.check(scene, file.string());
+    reader.check(scene, text.name);
     if (!reader.found().empty())
         return one_line_each(std::move(reader.found()));
     return scene;
+}
+
+std::variant<Scene, Problems> load_scene(const std::filesystem::path& file,
+                                         const std::vector<std::string>& overrides)
+{
+    const auto text = read_scene_text(file);
+    if (const auto* found = std::get_if<Problems>(&text))
+        return *found;
+    return load_scene(std::get<SceneText>(text), overrides);
 }
 
 } // namespace slod

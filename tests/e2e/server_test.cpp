@@ -1,6 +1,8 @@
 #include "e2e/server_fixture.hpp"
 
 #include <csignal>
+#include <fstream>
+#include <sys/stat.h>
 
 namespace slod {
 namespace {
@@ -74,7 +76,45 @@ TEST_F(Server, RefusesWrongSettingsOnTheCommandLine)
         const ServerRun run = run_server(arguments);
         EXPECT_EQ(run.exit_code, 2) << testing::PrintToString(wrong) << run.output;
     }
-    EXPECT_EQ(run_server({(folder_ / "none.toml").string()}).exit_code, 2);
+}
+
+TEST_F(Server, RefusesWhatIsNoSceneFile)
+{
+    for (const std::string& file :
+         {(folder_ / "none.toml").string(), folder_.string(), std::string("/dev/zero")}) {
+        const ServerRun run = run_server({file, "--no-dds", "--frames", "1"});
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_TRUE(contains(run.output, file + ": ")) << run.output;
+    }
+}
+
+// A pipe gives its text once: to the run and to its log.
+TEST_F(Server, TakesASceneFromAPipe)
+{
+    const std::filesystem::path pipe = folder_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    ServerProcess server({pipe, "--no-dds", "--free-run", "--frames", "5", "--output-dir", folder_});
+    write_file(pipe, fountain);
+    EXPECT_EQ(server.wait(), 0) << server.output();
+    EXPECT_EQ(run_server({"--replay", log_, "--no-dds", "--free-run"}).exit_code, 0);
+}
+
+// The signal comes while the server waits for its scene, whose stars take it long enough to notice.
+TEST_F(Server, StoppedBeforeItsFirstFrameEndsInOrder)
+{
+    const std::filesystem::path pipe = folder_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    ServerProcess server({pipe, "--no-dds", "--report", report_});
+    {
+        std::ofstream scene(pipe); // opens when the server does
+        server.signal(SIGTERM);
+        scene
+            << "[[kind]]\nname = \"disc\"\n[[kind]]\nname = \"bulge\"\n[[kind]]\nname = \"halo\"\n[gravity]\n"
+               "[initial]\nmodel = \"galaxy\"\n[galaxy]\nparticles = 100000\n";
+    }
+    EXPECT_EQ(server.wait(), 0) << server.output();
+    EXPECT_TRUE(contains(server.output(), "stopped before the first frame")) << server.output();
+    EXPECT_FALSE(std::filesystem::exists(report_)) << "there is nothing to report";
 }
 
 // Were the place tried only at the end, this would run for ever: there is no --frames.
