@@ -47,6 +47,8 @@ try {
         return say(slod::soundness(job));
     if (line.explain)
         return say(slod::plan_text(job));
+    if (signals.token().stop_requested())
+        return say("stopped before the first frame");
 
     slod::Logging logging;
     slod::log_job(job);

@@ -110,6 +110,9 @@ void read_line(const Json& line, InputLog& log)
 
 std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& file)
 {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) // opening a pipe may last for ever
+        return Problems{file.string() + ": there is no such regular file; name an input log"};
     std::ifstream stream(file);
     if (!stream)
         return Problems{file.string() + ": the input log cannot be read"};

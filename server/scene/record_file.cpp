@@ -20,6 +20,9 @@ RecordFile::RecordFile(const std::filesystem::path& file)
         throw UnusableFile("there is no such file; check its name.");
     if (status.type() == std::filesystem::file_type::directory)
         throw UnusableFile("this is a folder; name a file in it.");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw UnusableFile(
+            "this is a pipe or a device; name a regular file."); // opening a pipe may last for ever
     size_ = std::filesystem::file_size(file, error);
     stream_.open(file, std::ios::binary);
     if (error || !stream_)

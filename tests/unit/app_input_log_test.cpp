@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -77,6 +78,25 @@ TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
 }
 
 // The writer is not even closed: each line is in the file when record() returns.
+// A name and a setting as a command line may have them: any bytes.
+TEST_F(InputLogTest, WhatIsNoTextIsReplaced)
+{
+    InputLogHeader header = header_;
+    header.input = "/data/bad\xff.gadget2";
+    header.settings = {"title=\xff"};
+    InputLogWriter(folder_, header).finish({.frames = 1, .state_hash = 2});
+    EXPECT_EQ(read().header.input, "/data/bad\xef\xbf\xbd.gadget2");
+    EXPECT_EQ(read().header.settings.front(), "title=\xef\xbf\xbd");
+}
+
+// Nobody writes into the pipe: opened, it would be waited on for ever.
+TEST_F(InputLogTest, WhatIsNoRegularFileIsNotOpened)
+{
+    std::filesystem::create_directories(folder_);
+    ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+    EXPECT_EQ(problem(), file_.string() + ": there is no such regular file; name an input log");
+}
+
 TEST_F(InputLogTest, ALogThatWasCutShortIsReadWithoutAnEnd)
 {
     InputLogWriter writer(folder_, header_);

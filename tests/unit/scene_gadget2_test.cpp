@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <sys/stat.h>
 #include <utility>
 
 #include "scene/gadget2.hpp"
@@ -183,7 +184,7 @@ TEST(Gadget2, AMissingFileAndAFolderAreNamed)
     EXPECT_TRUE(only_says(say(folder.path() / "none"),
                           {(folder.path() / "none").string() + ": there is no such file"}));
     EXPECT_TRUE(only_says(say(folder.path()), {folder.path().string() + ": this is a folder"}));
-    EXPECT_TRUE(only_says(say("/dev/null"), {"/dev/null: the file cannot be read"})) << "it has no size";
+    EXPECT_TRUE(only_says(say("/dev/null"), {"/dev/null: this is a pipe or a device"})) << "it has no size";
 }
 
 TEST(Gadget2, ATruncatedFileSaysInWhichBlockAndWhatIsMissing)
@@ -230,6 +231,19 @@ TEST(Gadget2, SnapFormats2And3AreRecognised)
     std::string swapped = label;
     std::reverse(swapped.begin(), swapped.begin() + 4);
     EXPECT_TRUE(only_says(problems_of_bytes(swapped), {"big-endian"}));
+}
+
+// Nobody writes into the pipe: opened, it would be waited on for ever.
+TEST(Gadget2, APipeOrADeviceIsRefusedUnopened)
+{
+    const ScratchFolder folder;
+    const std::filesystem::path pipe = folder.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    for (const std::filesystem::path& file : {pipe, std::filesystem::path("/dev/zero")}) {
+        const auto read = read_gadget2(file, all_kinds);
+        ASSERT_TRUE(std::holds_alternative<Problems>(read));
+        EXPECT_TRUE(only_says(std::get<Problems>(read), {file.string() + ": this is a pipe or a device"}));
+    }
 }
 
 TEST(Gadget2, AnythingElseIsNoGadgetFile)
