@@ -20,11 +20,11 @@ int say(const std::string& text)
     return int(slod::ExitCode::Success);
 }
 
-int refuse(const slod::Problems& problems)
+int complain(const slod::Problems& problems, slod::ExitCode code)
 {
     for (const std::string& problem : problems)
         std::fprintf(stderr, "slod-server: %s\n", problem.c_str());
-    return int(slod::ExitCode::Usage);
+    return int(code);
 }
 
 } // namespace
@@ -41,7 +41,7 @@ try {
 
     auto loaded = slod::load_job(line);
     if (const auto* problems = std::get_if<slod::Problems>(&loaded))
-        return refuse(*problems);
+        return complain(*problems, slod::ExitCode::Usage);
     auto& job = std::get<slod::Job>(loaded);
     if (line.check)
         return say(slod::soundness(job));
@@ -58,8 +58,9 @@ try {
                         {.each_second = [&](const auto&... how_it_goes) { status.update(how_it_goes...); },
                          .record = [&](const slod::LoggedCommand& command) { outputs.record(command); }});
     const slod::RunSummary summary = server.run(signals.token());
-    outputs.write(job, server, summary);
-    return int(slod::compare_with_log(job, summary));
+    const slod::Problems unwritten = outputs.write(job, server, summary);
+    const slod::ExitCode outcome = slod::compare_with_log(job, summary);
+    return unwritten.empty() ? int(outcome) : complain(unwritten, slod::ExitCode::Failure);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "slod-server: %s\n", error.what());
     return int(slod::ExitCode::Failure);

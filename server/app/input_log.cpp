@@ -15,6 +15,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <xxhash.h>
 
+#include "app/json_text.hpp"
+
 namespace slod {
 namespace {
 
@@ -142,7 +144,7 @@ InputLogWriter::InputLogWriter(const std::filesystem::path& folder, const InputL
     file_.reset(std::fopen(place_.c_str(), "we"));
     if (!file_)
         throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
-    write_line(to_json(header).dump());
+    write_line(json_text(to_json(header)));
 }
 
 void InputLogWriter::record(const LoggedCommand& command)
@@ -152,12 +154,12 @@ void InputLogWriter::record(const LoggedCommand& command)
         line["region"] = command.region;
     if (!command.settings.empty())
         line["settings"] = texts_of(command.settings);
-    write_line(line.dump());
+    write_line(json_text(line));
 }
 
 void InputLogWriter::finish(const InputLogEnd& end)
 {
-    write_line(Json{{"frames", end.frames}, {"state_hash", hash_text(end.state_hash)}}.dump());
+    write_line(json_text({{"frames", end.frames}, {"state_hash", hash_text(end.state_hash)}}));
     if (::fsync(fileno(file_.get())) != 0)
         throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
 }

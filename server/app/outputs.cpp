@@ -1,6 +1,7 @@
 #include "app/outputs.hpp"
 
 #include <cstdio>
+#include <exception>
 #include <system_error>
 
 #include <spdlog/fmt/fmt.h>
@@ -48,19 +49,30 @@ void Outputs::record(const LoggedCommand& command)
     }
 }
 
-void Outputs::write(const Job& job, const Server& server, const RunSummary& summary)
+Problems Outputs::write(const Job& job, const Server& server, const RunSummary& summary)
 {
+    Problems failures;
+    const auto attempt = [&](const auto& write_one) {
+        try {
+            write_one();
+        } catch (const std::exception& error) {
+            failures.emplace_back(error.what());
+        }
+    };
     if (input_log_)
-        input_log_->finish({.frames = summary.frames, .state_hash = summary.state_hash});
+        attempt([&] { input_log_->finish({.frames = summary.frames, .state_hash = summary.state_hash}); });
     if (report_)
-        report_->commit(report({.scene = job.scene,
-                                .plan = server.simulation().plan(),
-                                .summary = summary,
-                                .initial_source = job.initial.source,
-                                .isa = server.simulation().isa(),
-                                .threads = server.threads()}));
+        attempt([&] {
+            report_->commit(report({.scene = job.scene,
+                                    .plan = server.simulation().plan(),
+                                    .summary = summary,
+                                    .initial_source = job.initial.source,
+                                    .isa = server.simulation().isa(),
+                                    .threads = server.threads()}));
+        });
     if (picture_)
-        picture_->commit(picture_of(job, server.simulation(), summary));
+        attempt([&] { picture_->commit(picture_of(job, server.simulation(), summary)); });
+    return failures;
 }
 
 ExitCode compare_with_log(const Job& job, const RunSummary& summary)

@@ -22,8 +22,8 @@ public:
     /// line, and the run goes on.
     void record(const LoggedCommand& command);
 
-    /// Throws std::system_error.
-    void write(const Job& job, const Server& server, const RunSummary& summary);
+    /// Writes each by itself, and says of each that cannot be written why.
+    Problems write(const Job& job, const Server& server, const RunSummary& summary);
 
 private:
     std::optional<OutputFile> report_;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/input_log.hpp"
+#include "app/json_text.hpp"
 #include "app/settings_json.hpp"
 #include "idl/version.hpp"
 
@@ -79,7 +80,7 @@ std::string report(const ReportedRun& run)
         {"counts", counts_json(summary.events)},
         {"settings", settings_json(run.scene)},
     };
-    return json.dump(2) + '\n';
+    return json_text(json, 2) + '\n';
 }
 
 } // namespace slod

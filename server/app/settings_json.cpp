@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/json_text.hpp"
 #include "scene/sections.hpp"
 
 namespace slod {
@@ -77,7 +78,7 @@ std::string record(const std::string& table, const Json& settings)
 {
     std::string line = "settings table=" + table;
     for (const auto& [key, value] : settings.items())
-        line += " " + key + "=" + value.dump();
+        line += " " + key + "=" + json_text(value);
     return line;
 }
 

@@ -140,6 +140,17 @@ TEST_F(Server, DrawsAPicture)
     EXPECT_EQ(file_content(picture).substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
+TEST_F(Server, AnOutputThatCannotBeWrittenCostsNoOther)
+{
+    const std::filesystem::path picture = folder_ / "picture.png";
+    const ServerRun run = run_server({scene_, "--no-dds", "--free-run", "--frames", "5", "--report",
+                                      "/dev/full", "--picture", picture, "--output-dir", folder_});
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_TRUE(contains(run.output, "cannot write /dev/full")) << run.output;
+    EXPECT_GT(std::filesystem::file_size(picture), 0U);
+    EXPECT_EQ(run_server({"--replay", log_, "--no-dds", "--free-run"}).exit_code, 0);
+}
+
 TEST_F(Server, ChecksExplainsAndListsKeysWithoutRunning)
 {
     const ServerRun check = run_server({scene_, "--check"});

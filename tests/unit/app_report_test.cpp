@@ -96,6 +96,21 @@ TEST(Report, HasThePromisedKeys)
     EXPECT_EQ(json["counts"].size(), event_counts.size());
 }
 
+// A file's name is any bytes; this one's is no UTF-8.
+TEST(Report, WhatIsNoTextIsReplaced)
+{
+    const Scene scene;
+    const RunSummary summary;
+    const Plan plan = gravity_plan();
+    const ReportedRun run{.scene = scene,
+                          .plan = plan,
+                          .summary = summary,
+                          .initial_source = "bad\xff.gadget2",
+                          .isa = "v3",
+                          .threads = 2};
+    EXPECT_EQ(nlohmann::json::parse(report(run))["initial"], "bad\xef\xbf\xbd.gadget2");
+}
+
 TEST(Report, APhaseThatIsNotPlannedIsAbsent)
 {
     RunSummary summary;
