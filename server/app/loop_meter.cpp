@@ -23,12 +23,17 @@ bool LoopMeter::add(Clock::time_point now, double work_ms, const StepProfile& pr
     }
     if (full) {
         had_second_ = true;
-        begin_ = now;
-        frames_ = 0;
-        work_ms_ = 0;
-        profile_ = {};
+        restart(now);
     }
     return full;
+}
+
+void LoopMeter::restart(Clock::time_point now)
+{
+    begin_ = now;
+    frames_ = 0;
+    work_ms_ = 0;
+    profile_ = {};
 }
 
 } // namespace slod

@@ -27,6 +27,9 @@ public:
     /// second.
     bool add(Clock::time_point now, double work_ms, const StepProfile& profile);
 
+    /// Begins a second anew at `now`, as after a pause; what was measured of the one under way is left out.
+    void restart(Clock::time_point now);
+
     /// Of the last full second; of the frames so far while the first one lasts.
     const LoopMeans& means() const { return means_; }
 

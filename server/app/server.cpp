@@ -77,7 +77,7 @@ RunSummary Server::run(const std::stop_token& stop)
             run_frame(meter, summary);
             steering_->control().count_frame();
         }
-        wait_for_frame(pacer, summary, stop);
+        wait_for_frame(pacer, meter, summary, stop);
     }
     steering_->repeat_rest(summary.frames + 1, team_);
 
@@ -95,7 +95,8 @@ bool Server::ended(const RunSummary& summary, const std::stop_token& stop) const
            (frames_ > 0 && summary.frames == frames_);
 }
 
-void Server::wait_for_frame(Pacer& pacer, const RunSummary& summary, const std::stop_token& stop)
+void Server::wait_for_frame(Pacer& pacer, LoopMeter& meter, const RunSummary& summary,
+                            const std::stop_token& stop)
 {
     if (ended(summary, stop))
         return; // what is answered "applied" would be in force from a frame that never runs
@@ -105,7 +106,9 @@ void Server::wait_for_frame(Pacer& pacer, const RunSummary& summary, const std::
     while (!ended(summary, stop)) {
         const Clock::time_point now = Clock::now();
         const bool runs = steering_->control().may_run();
-        if (runs && now >= due)
+        if (!runs)
+            meter.restart(now);
+        else if (now >= due)
             break;
         sleep_until(runs ? std::min(due, now + command_period) : now + command_period, stop);
         steering_->prepare(next_frame, team_);

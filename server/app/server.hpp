@@ -41,8 +41,10 @@ public:
     int threads() const { return threads_; }
 
 private:
-    /// Takes what came in between frames; then waits for the next one's time, if there is one, taking on.
-    void wait_for_frame(Pacer& pacer, const RunSummary& summary, const std::stop_token& stop);
+    /// Takes what came in between frames; then waits for the next one's time, if there is one, taking on. A
+    /// pause is no part of what the meter measures.
+    void wait_for_frame(Pacer& pacer, LoopMeter& meter, const RunSummary& summary,
+                        const std::stop_token& stop);
 
     bool ended(const RunSummary& summary, const std::stop_token& stop) const;
 

@@ -44,6 +44,23 @@ TEST(LoopMeter, SecondsDoNotMix)
     EXPECT_EQ(meter.means().frame_rate_hz, 2);
 }
 
+// Four frames a second, but for a pause of an hour after the fifth.
+TEST(LoopMeter, APauseIsPartOfNoSecond)
+{
+    LoopMeter meter(1, start);
+    for (int frame = 1; frame <= 5; ++frame)
+        meter.add(start + frame * 250ms, 10, forces(1));
+    const Time resumed = start + 1h;
+    meter.restart(resumed);
+    EXPECT_EQ(meter.means().frame_rate_hz, 4) << "of the last full second";
+    for (int frame = 1; frame <= 3; ++frame)
+        EXPECT_FALSE(meter.add(resumed + frame * 250ms, 20, forces(3)));
+    EXPECT_TRUE(meter.add(resumed + 1s, 20, forces(3)));
+    EXPECT_EQ(meter.means().frame_rate_hz, 4);
+    EXPECT_EQ(meter.means().work_ms, 20) << "the frame before the pause is of neither second";
+    EXPECT_EQ(meter.means().profile[Phase::Forces], 3);
+}
+
 TEST(LoopMeter, TheFirstSecondShowsTheFramesSoFar)
 {
     LoopMeter meter(1, start);
