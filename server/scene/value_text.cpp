@@ -1,7 +1,6 @@
 #include "scene/value_text.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -23,13 +22,6 @@ std::string string_text(std::string_view text)
         }
     }
     return result + '"';
-}
-
-std::string number_text(double value)
-{
-    std::array<char, 32> digits{}; // 17 digits, sign, point and exponent are 24
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return {digits.data(), end};
 }
 
 std::string float_text(double value)

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/number_text.hpp"
 #include "core/settings.hpp"
 #include "core/vectors.hpp"
 
@@ -14,9 +15,6 @@ namespace slod {
 
 /// `text` as a TOML basic string, quotes included.
 std::string string_text(std::string_view text);
-
-/// The shortest decimal that reads back as the same number: "0.1", "10", "1e+30", "inf".
-std::string number_text(double value);
 
 /// number_text as a TOML float: "10.0" where that has neither point nor exponent.
 std::string float_text(double value);
