@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <string>
@@ -82,7 +83,9 @@ std::string choice_text(const Field& field)
     else if constexpr (std::is_arithmetic_v<T>)
         return range_text(range_of<T>(field), field.infinity_allowed);
     else if constexpr (std::is_same_v<T, Vector3d>)
-        return "3 numbers";
+        return std::isfinite(field.minimum) || std::isfinite(field.maximum)
+                   ? "3 numbers, each " + range_text(range_of<double>(field), false)
+                   : "3 numbers";
     else
         return "text";
 }

@@ -359,6 +359,13 @@ TEST(NumberText, IsTheShortestThatReadsBack)
     EXPECT_EQ(float_text(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
+TEST(ChoiceText, OfAVectorHasTheRangeOfItsComponentsIfThereIsOne)
+{
+    EXPECT_EQ(choice_text<Vector3d>(Field{"a", "", "", -2, 30}), "3 numbers, each -2 to 30");
+    EXPECT_EQ(choice_text<Vector3d>(Field{"a", "", "", 0}), "3 numbers, each at least 0");
+    EXPECT_EQ(choice_text<Vector3d>(Field{"a", "", ""}), "3 numbers");
+}
+
 TEST(RangeText, SaysWhatIsBounded)
 {
     const double infinity = std::numeric_limits<double>::infinity();
