@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/number_text.hpp"
+
 namespace slod {
 
 namespace {
@@ -16,6 +18,17 @@ constexpr std::size_t max_kinds = std::size_t{std::numeric_limits<std::uint8_t>:
 std::string in_quotes(const std::string& text)
 {
     return '"' + text + '"';
+}
+
+void check_units(const Units& units, Problems& found)
+{
+    constexpr double largest = 1e30; // as of all that a scene may set
+    const double constant = units.gravitational_constant();
+    if (!(constant > 0 && constant <= largest))
+        found.push_back("units.length = " + number_text(units.length_m) + ", units.mass = " +
+                        number_text(units.mass_kg) + " and units.time = " + number_text(units.time_s) +
+                        " make Newton's constant " + number_text(constant) +
+                        "; use units in which it is more than 0 and at most " + number_text(largest) + ".");
 }
 
 /// Names are valid, and each is the first of its sort.
@@ -63,6 +76,9 @@ void check_emitter(const std::string& key, const EmitterSettings& emitter,
     if (emitter.direction.isZero(0))
         found.push_back(key +
                         ".direction = [0, 0, 0] is none; give the axis of the cone, such as [0, 0, 1].");
+    if (emitter.stop <= emitter.start)
+        found.push_back(key + ".stop = " + number_text(emitter.stop) + " is not after " + key + ".start = " +
+                        number_text(emitter.start) + "; use more than that, or leave the emitter out.");
 }
 
 void check_lives(const MotionSettings& motion, Problems& found)
@@ -133,6 +149,7 @@ bool is_name(std::string_view name)
 Problems problems(const SimulationSettings& settings)
 {
     Problems found;
+    check_units(settings.units, found);
     check_kinds(settings.kinds, found);
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)

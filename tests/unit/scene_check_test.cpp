@@ -105,6 +105,35 @@ TEST(SimulationSettings, RefuseADirectionOfLengthZeroAndTakeAnyOther)
     }
 }
 
+TEST(SimulationSettings, RefuseAnEmitterThatStopsBeforeItStarts)
+{
+    SimulationSettings settings = sound();
+    settings.emitters[1].start = 5;
+    for (const double stop : {1.0, 5.0}) {
+        settings.emitters[1].stop = stop;
+        EXPECT_TRUE(
+            only_says(problems(settings), {"emitter.1.stop = " + std::to_string(int(stop)) + " is not after",
+                                           "emitter.1.start = 5; use more than that"}));
+    }
+    settings.emitters[1].stop = std::nextafter(5, 6);
+    EXPECT_TRUE(problems(settings).empty());
+}
+
+// 6.6743e-11 * 1e41 is 6.6743e30 in double too, and a tenth of it may be used.
+TEST(SimulationSettings, RefuseUnitsInWhichNewtonsConstantIsBeyondSense)
+{
+    SimulationSettings settings = sound();
+    settings.units = {.length_m = 1, .mass_kg = 1e41, .time_s = 1};
+    EXPECT_TRUE(only_says(problems(settings), {"units.length = 1, units.mass = 1e+41 and units.time = 1 make",
+                                               "at most 1e+30."}));
+    settings.units.mass_kg = 1e40;
+    EXPECT_TRUE(problems(settings).empty());
+    for (const double mass : {0.0, -1.0, double(INFINITY), double(NAN)}) {
+        settings.units.mass_kg = mass;
+        EXPECT_EQ(problems(settings).size(), 1U) << mass;
+    }
+}
+
 TEST(SimulationSettings, RefuseLivesThatAreNoPowersOfTwo)
 {
     SimulationSettings settings = sound();

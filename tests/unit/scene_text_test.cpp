@@ -139,10 +139,13 @@ Scene random_scene(std::uint64_t seed)
     });
     // What the fields together must satisfy.
     SimulationSettings& simulation = scene.simulation;
+    if (simulation.units.gravitational_constant() > 1e30)
+        simulation.units.length_m = 1e30; // with the largest of the other units it is 7e19
     for (EmitterSettings& emitter : simulation.emitters) {
         emitter.kind = simulation.kinds[scrambler.below(3)].name;
         emitter.direction.z() = 1;
         emitter.direction.x() = emitter.direction.y() = -0.0;
+        put_in_order(emitter.start, emitter.stop);
     }
     simulation.sharing.overlap = true;
     for (RegionOfInterest& region : simulation.regions) {
