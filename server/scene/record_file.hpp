@@ -36,8 +36,6 @@ public:
         return items;
     }
 
-    bool at_end() const { return position_ == size_; }
-
 private:
     void check_next(const std::string& block, std::uint64_t expected);
     void read_next(const std::string& block, void* memory, std::size_t bytes);
