@@ -132,7 +132,6 @@ TEST_F(Server, RefusesAPlaceItCannotWriteBeforeTheFirstFrame)
     }
 }
 
-// The scene's text is part of the log's first line, in which only the seed is changed.
 TEST_F(Server, DrawsAPicture)
 {
     const std::filesystem::path picture = folder_ / "picture.png";

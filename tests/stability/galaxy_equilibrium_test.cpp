@@ -2,10 +2,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <thread>
-#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -13,20 +11,13 @@
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 #include "support/disc_measures.hpp"
+#include "support/sound.hpp"
 
 namespace slod::test {
 namespace {
 
 constexpr std::uint8_t disc = 0; // the scene's first kind
 constexpr int looks = 10;        // at the galaxy, in its one turn
-
-template <class T>
-T sound(std::variant<T, Problems> loaded)
-{
-    if (const auto* problems = std::get_if<Problems>(&loaded))
-        throw std::runtime_error(problems->front());
-    return std::get<T>(std::move(loaded));
-}
 
 /// Time in which the disc turns once at its half-mass radius: spin is about r50 times the speed there.
 double turn_time(const DiscMeasures& start)

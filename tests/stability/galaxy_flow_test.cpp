@@ -2,10 +2,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +12,7 @@
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 #include "support/disc_measures.hpp"
+#include "support/sound.hpp"
 
 // One of the two galaxies of GADGET-2's collision, for about three turns of its inner disc, through clusters
 // and by itself. What the clusters carry with them decides whether a disc remains.
@@ -23,14 +22,6 @@ namespace {
 constexpr std::uint8_t disc = 1; // halo is 0
 constexpr double softening = 0.4;
 constexpr int step_count = 300;
-
-template <class T>
-T sound(std::variant<T, Problems> loaded)
-{
-    if (const auto* problems = std::get_if<Problems>(&loaded))
-        throw std::runtime_error(problems->front());
-    return std::get<T>(std::move(loaded));
-}
 
 /// The collision's scene with one softening for all.
 Scene scene_with(const std::vector<std::string>& overrides)

@@ -93,9 +93,11 @@ void all(SmallScene& scene)
     (choices(scene), ...);
 }
 
-std::vector<PlannedScene> planned_scenes()
+const Names forces_of_bodies{"acceleration and variance"};
+
+/// By how particles and clusters move.
+std::vector<PlannedScene> scenes_of_motion()
 {
-    const Names forces_of_bodies{"acceleration and variance"};
     return {
         {.name = "free_flight", .choose = all<>},
         {.name = "rigid_flight",
@@ -137,6 +139,13 @@ std::vector<PlannedScene> planned_scenes()
          .effects = {"gravity"},
          .map = MapKind::Identity,
          .cluster_columns = forces_of_bodies},
+    };
+}
+
+/// By what particles there are.
+std::vector<PlannedScene> scenes_of_particles()
+{
+    return {
         {.name = "emitter",
          .choose = emit,
          .phases = with_births_or_deaths,
@@ -277,7 +286,8 @@ std::string name_of(const testing::TestParamInfo<PlannedScene>& info)
     return info.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PlanOf, testing::ValuesIn(planned_scenes()), name_of);
+INSTANTIATE_TEST_SUITE_P(Motion, PlanOf, testing::ValuesIn(scenes_of_motion()), name_of);
+INSTANTIATE_TEST_SUITE_P(Particles, PlanOf, testing::ValuesIn(scenes_of_particles()), name_of);
 
 // 24 bytes of offsets and 8 of id are all that a particle of the plainest scene takes.
 TEST(PlainestPlan, KeepsThirtyTwoBytesPerParticle)
