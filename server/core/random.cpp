@@ -1,9 +1,5 @@
 #include "core/random.hpp"
 
-#include <cmath>
-
-#include "core/portable_math.hpp"
-
 namespace slod {
 
 std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> x, std::array<std::uint32_t, 2> key)
@@ -50,42 +46,6 @@ double Random::uniform()
 {
     const std::uint64_t high = bits();
     return between_0_and_1(high << 32 | bits());
-}
-
-double Random::normal()
-{
-    // Marsaglia's polar method: no sine or cosine.
-    for (;;) {
-        const double u = 2 * uniform() - 1;
-        const double v = 2 * uniform() - 1;
-        const double s = u * u + v * v;
-        if (s > 0 && s < 1)
-            return u * std::sqrt(-2 * portable_log(s) / s);
-    }
-}
-
-std::array<double, 3> Random::direction()
-{
-    for (;;) {
-        const double x = 2 * uniform() - 1;
-        const double y = 2 * uniform() - 1;
-        const double z = 2 * uniform() - 1;
-        const double r2 = x * x + y * y + z * z;
-        if (r2 > 1e-6 && r2 <= 1) {
-            const double scale = 1 / std::sqrt(r2);
-            return {x * scale, y * scale, z * scale};
-        }
-    }
-}
-
-std::array<double, 2> Random::point_in_disc()
-{
-    for (;;) {
-        const double x = 2 * uniform() - 1;
-        const double y = 2 * uniform() - 1;
-        if (x * x + y * y <= 1)
-            return {x, y};
-    }
 }
 
 } // namespace slod

@@ -19,11 +19,8 @@ public:
     /// The generator of item `item` (a particle id) in stream `stream` (an emitter, a purpose).
     Random(std::uint64_t seed, std::uint32_t stream, std::uint64_t item);
 
-    std::uint32_t bits();                  ///< 32 random bits
-    double uniform();                      ///< in (0, 1), 52 bits
-    double normal();                       ///< mean 0, variance 1
-    std::array<double, 3> direction();     ///< uniform on the unit sphere
-    std::array<double, 2> point_in_disc(); ///< uniform in the unit disc
+    std::uint32_t bits(); ///< 32 random bits
+    double uniform();     ///< in (0, 1), 52 bits
 
 private:
     void refill();

@@ -8,6 +8,7 @@
 
 #include "support/clouds.hpp"
 #include "support/leapfrog.hpp"
+#include "support/random_draws.hpp"
 #include "support/rigid_scenes.hpp"
 
 // O'Brien, Fisher, Lin 2001, sections 3.1 and 6.1: N-body systems, and light particles among heavy ones.
@@ -186,9 +187,8 @@ ParticleSet orbits(std::size_t count)
     particles[0] = {.position = {0, 0, 0}, .velocity = {0, 0, 0}, .id = 1, .mass = 1};
     for (std::size_t i = 1; i <= count; ++i) {
         Random random(8, 0, i);
-        const auto outwards = random.direction(), aside = random.direction();
-        const Vector3d x(outwards[0], outwards[1], outwards[2]);
-        const Vector3d along = x.cross(Vector3d(aside[0], aside[1], aside[2])).normalized();
+        const Vector3d x = random_direction(random);
+        const Vector3d along = x.cross(random_direction(random)).normalized();
         const double radius = 0.5 + 1.5 * random.uniform();
         particles[i] = {
             .position = radius * x, .velocity = along / std::sqrt(radius), .id = i + 1, .mass = 1e-9F};

@@ -7,6 +7,7 @@
 
 #include "support/attracting_world.hpp"
 #include "support/clouds.hpp"
+#include "support/random_draws.hpp"
 
 // What the walk of the tree misses beside a direct sum in double, over the shapes that break tree codes.
 // Nodes act by their masses and centres alone.
@@ -17,8 +18,8 @@ constexpr double softening = 0.01;
 
 Vector3d normal(Random& random, double sigma)
 {
-    const double x = random.normal(), y = random.normal();
-    return sigma * Vector3d(x, y, random.normal());
+    const double x = random_normal(random), y = random_normal(random);
+    return sigma * Vector3d(x, y, random_normal(random));
 }
 
 Vector3d in_unit_box(Random& random)
@@ -32,7 +33,7 @@ Vector3d in_exponential_disc(Random& random)
 {
     const double radius = -std::log(random.uniform() * random.uniform());
     const double angle = 2 * std::numbers::pi * random.uniform();
-    return {radius * std::cos(angle), radius * std::sin(angle), 0.05 * random.normal()};
+    return {radius * std::cos(angle), radius * std::sin(angle), 0.05 * random_normal(random)};
 }
 
 AttractingWorld walked(const ParticleSet& particles)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/clouds.hpp"
+#include "support/random_draws.hpp"
 #include "support/rigid_scenes.hpp"
 #include "support/streams.hpp"
 
@@ -26,7 +27,7 @@ ParticleSet ring(std::size_t count)
         if (i == 0)
             continue;
         const double radius = 0.9 + 0.2 * random.uniform();
-        const auto [x, y] = random.point_in_disc();
+        const auto [x, y] = random_point_in_disc(random);
         const double length = std::hypot(x, y);
         particle.position = Vector3d(x, y, 0) * (radius / length);
         // The softening of 0.05 weakens the pull.

@@ -2,15 +2,9 @@
 
 #include <cmath>
 
+#include "support/random_draws.hpp"
+
 namespace slod::test {
-namespace {
-
-Vector3d vector_of(const std::array<double, 3>& components)
-{
-    return {components[0], components[1], components[2]};
-}
-
-} // namespace
 
 Vector3d point_in_ball(Random& random, double radius)
 {
@@ -60,10 +54,10 @@ ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed)
             radius = 1 / std::sqrt(std::pow(random.uniform(), -2.0 / 3.0) - 1);
         while (radius > 10);
         const double dispersion = std::sqrt(1 / (6 * std::sqrt(1 + radius * radius)));
-        particles[i].position = radius * vector_of(random.direction());
-        const double vx = random.normal();
-        const double vy = random.normal();
-        particles[i].velocity = dispersion * Vector3d(vx, vy, random.normal());
+        particles[i].position = radius * random_direction(random);
+        const double vx = random_normal(random);
+        const double vy = random_normal(random);
+        particles[i].velocity = dispersion * Vector3d(vx, vy, random_normal(random));
         particles[i].id = i + 1;
         particles[i].mass = 1 / float(count);
     }

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/random.hpp"
 #include "support/little_worlds.hpp"
+#include "support/random_draws.hpp"
 #include "tree/regrouping.hpp"
 
 namespace slod::test {
@@ -22,12 +22,6 @@ Particle particle_of(double mass, const Vector3d& x, const Vector3d& v, std::uin
     return particle;
 }
 
-Vector3d direction(Random& random)
-{
-    const auto components = random.direction();
-    return {components[0], components[1], components[2]};
-}
-
 } // namespace
 
 std::vector<MergingPair> random_pairs(std::size_t count, std::uint64_t seed)
@@ -37,9 +31,10 @@ std::vector<MergingPair> random_pairs(std::size_t count, std::uint64_t seed)
         Random random(seed, 5, i);
         MergingPair& pair = pairs[i];
         pair.other_mass = double(float(std::pow(10.0, 2 * random.uniform() - 1)));
-        const Vector3d ahead = direction(random);
+        const Vector3d ahead = random_direction(random);
         const double angle = random.uniform() * 100 * std::numbers::pi / 180;
-        const Vector3d turned = Eigen::AngleAxisd(angle, ahead.cross(direction(random)).normalized()) * ahead;
+        const Vector3d turned =
+            Eigen::AngleAxisd(angle, ahead.cross(random_direction(random)).normalized()) * ahead;
         pair.velocity = (0.5 + 1.5 * random.uniform()) * ahead;
         pair.other_velocity = (0.5 + 1.5 * random.uniform()) * turned;
     }

@@ -1,5 +1,7 @@
 #include "support/random_regions.hpp"
 
+#include "support/random_draws.hpp"
+
 namespace slod::test {
 
 Vector3d random_point(Random& random, double extent)
@@ -19,10 +21,8 @@ RegionOfInterest random_region(Random& random, const RegionDraw& draw)
     region.centre = random_point(random, draw.extent);
     region.half_extent = {length(), length(), length()};
     region.radius = length();
-    const auto towards = random.direction();
-    region.direction = 3 * Vector3d(towards[0], towards[1], towards[2]);
-    const auto above = random.direction();
-    region.up = Vector3d(above[0], above[1], above[2]);
+    region.direction = 3 * random_direction(random);
+    region.up = random_direction(random);
     region.field_of_view_deg = 10 + 120 * random.uniform();
     region.aspect = 0.5 + random.uniform();
     region.near_distance = chance(0.5) ? 0 : 0.2 * draw.size * random.uniform();

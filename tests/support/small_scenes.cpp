@@ -4,15 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/random.hpp"
+#include "support/random_draws.hpp"
 
 namespace slod::test {
 namespace {
-
-Vector3d vector_of(const std::array<double, 3>& v)
-{
-    return {v[0], v[1], v[2]};
-}
 
 SmallScene clouds(const std::string& name, Motion motion, double max_cluster_size, std::uint32_t count)
 {
@@ -101,9 +96,9 @@ void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
         // The one-dimensional velocity dispersion there.
         const double sigma = std::sqrt(cloud.mass / (6 * std::sqrt(r * r + cloud.scale * cloud.scale)));
         Particle particle;
-        particle.position = cloud.centre + r * vector_of(random.direction());
+        particle.position = cloud.centre + r * random_direction(random);
         for (int axis = 0; axis < 3; ++axis)
-            particle.velocity[axis] = cloud.velocity[axis] + sigma * random.normal();
+            particle.velocity[axis] = cloud.velocity[axis] + sigma * random_normal(random);
         particle.id = particles.size();
         particle.mass = float(cloud.mass / cloud.count);
         particle.kind = cloud.kind;

@@ -8,6 +8,7 @@
 #include "app/publisher.hpp"
 #include "core/random.hpp"
 #include "sim/snapshot.hpp"
+#include "support/random_draws.hpp"
 
 namespace slod {
 
@@ -19,7 +20,7 @@ inline ClusterStates made_up_clusters(std::size_t count, std::uint64_t seed)
         Random random(seed, 0, row);
         const auto symmetric = [&] { return 200 * random.uniform() - 100; };
         states.position.emplace_back(1000 + symmetric(), symmetric(), -500 + symmetric());
-        states.velocity.emplace_back(random.normal(), random.normal(), random.normal());
+        states.velocity.emplace_back(random_normal(random), random_normal(random), random_normal(random));
         states.mass.push_back(0.5 + random.uniform());
         states.count.push_back(1 + row % 64);
         states.covariance.push_back({2.0F, 0.1F, -0.2F, 3.0F, 0.3F, 4.0F});
