@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "app/colour_map.hpp"
+#include "idl/colour_map.hpp"
 
 struct gdImageStruct;
 

@@ -1,4 +1,4 @@
-#include "app/colour_map.hpp"
+#include "idl/colour_map.hpp"
 
 #include <array>
 #include <cmath>
