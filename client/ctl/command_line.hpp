@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "common/commander.hpp"
+#include "common/exit_code.hpp"
 #include "idl/profile.hpp"
 
 namespace slod::ctl {
 
-/// What slodctl tells its caller; the codes of BSD's sysexits.h where they fit.
-enum class ExitCode : int {
-    Success = 0,
-    Failure = 1,          ///< the network could not be joined
-    Usage = 2,            ///< the command line cannot be understood
-    InvalidArgument = 65, ///< it can, but a value in it cannot be right
-    NotFound = 66,        ///< a name that was asked for does not exist
-    NoServer = 69,
-    TimedOut = 75,     ///< a server is there, but the answer did not come in time
-    NotPermitted = 77, ///< the domain's security forbids it
-};
+using client::ExitCode;
 
 /// What was asked for.
 struct CommandLine {

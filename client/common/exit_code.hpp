@@ -1,0 +1,17 @@
+#pragma once
+
+namespace slod::client {
+
+/// What a client tells its caller; the codes of BSD's sysexits.h where they fit.
+enum class ExitCode : int {
+    Success = 0,
+    Failure = 1,          ///< the network could not be joined, or the screen not be used
+    Usage = 2,            ///< the command line cannot be understood
+    InvalidArgument = 65, ///< it can, but a value in it cannot be right
+    NotFound = 66,        ///< a name that was asked for does not exist
+    NoServer = 69,
+    TimedOut = 75,     ///< a server is there, but the answer did not come in time
+    NotPermitted = 77, ///< the domain's security forbids it
+};
+
+} // namespace slod::client
