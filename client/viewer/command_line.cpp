@@ -1,0 +1,180 @@
+#include "viewer/command_line.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "idl/version.hpp"
+#include "viewer/camera_file.hpp"
+
+namespace slod::viewer {
+
+namespace {
+
+constexpr std::uint32_t last_domain = 230;
+constexpr double longest_timeout_s = 86400;
+constexpr int smallest_px = 16, largest_px = 8192;
+
+template <class Enum>
+std::vector<std::string> names_of()
+{
+    const auto all = names(Enum{});
+    return {all.begin(), all.end()};
+}
+
+/// An option whose value is one of an enum's names.
+template <class Enum>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Enum& target, const std::string& help)
+{
+    const std::vector<std::string> all = names_of<Enum>();
+    const auto take = [all, &target](const std::string& word) {
+        target = Enum(std::find(all.begin(), all.end(), word) - all.begin());
+    };
+    return app.add_option_function<std::string>(name, take, help)
+        ->check(CLI::IsMember(all))
+        ->option_text("NAME [" + all[std::size_t(target)] + "]");
+}
+
+/// Two numbers with `mark` between them.
+template <class Number>
+std::optional<std::pair<Number, Number>> pair_of(const std::string& text, char mark)
+{
+    const char* const end = text.data() + text.size();
+    Number first{}, second{};
+    const auto [middle, wrong] = std::from_chars(text.data(), end, first);
+    if (wrong != std::errc() || middle == end || *middle != mark)
+        return {};
+    const auto [last, also_wrong] = std::from_chars(middle + 1, end, second);
+    if (also_wrong != std::errc() || last != end)
+        return {};
+    return std::pair{first, second};
+}
+
+void declare_connection(CLI::App& app, CommandLine& line)
+{
+    app.add_option("--domain", line.domain, "DDS domain of the server, 0 to 230")
+        ->check(CLI::Range(std::uint32_t{0}, last_domain))
+        ->option_text("N [0]");
+    add_choice(app, "--profile", line.profile, "Where to look: loopback (this machine) or lan");
+    app.add_option("--timeout", line.timeout_s,
+                   "With --screenshot: seconds to wait for a server and its frames")
+        ->check(CLI::Range(0.0, longest_timeout_s))
+        ->option_text("SECONDS [3]");
+    app.add_option("--region", line.region, "Show the clusters of this region alone; without it, all")
+        ->option_text("NAME");
+}
+
+void declare_camera(CLI::App& app, CommandLine& line)
+{
+    const auto take = [&line](const std::string& text) {
+        const auto read = view::camera_of(text);
+        if (const auto* wrong = std::get_if<std::string>(&read))
+            throw CLI::ValidationError("--camera", *wrong);
+        line.camera = std::get<view::Camera>(read);
+    };
+    CLI::Option* const camera = app.add_option_function<std::string>(
+        "--camera", take,
+        "Where to look from, such as \"" + view::to_text(view::Camera{}) +
+            "\"; lengths are the scene's, angles degrees. What is left out is as here. "
+            "Without it the camera is set once, by the first frame");
+    camera->option_text("TEXT");
+    app.add_option_function<std::string>(
+           "--camera-file",
+           [&line, camera](const std::string& path) {
+               line.camera_file = path;
+               if (camera->count() == 0)
+                   line.camera = load_camera(path);
+           },
+           "Where Ctrl-S saves the camera and Ctrl-L loads it; read at the start if it is there and there is "
+           "no --camera")
+        ->option_text("FILE [slod-camera.txt]");
+}
+
+void declare_look(CLI::App& app, CommandLine& line)
+{
+    add_choice(app, "--colour-by", line.colours.by, "Colour by speed, mass, count, region or age");
+    app.add_flag("--log", line.colours.logarithmic, "Colours on a logarithmic scale");
+    const auto take_range = [&line](const std::string& text) {
+        const auto range = pair_of<double>(text, ',');
+        if (!range || !(range->second > range->first))
+            throw CLI::ValidationError("--range", text + " is no range; write LOW,HIGH");
+        line.colours.automatic = false;
+        std::tie(line.colours.low, line.colours.high) = *range;
+    };
+    app.add_option_function<std::string>(
+           "--range", take_range, "What the ends of the colours stand for; without it, the values at hand")
+        ->option_text("LOW,HIGH");
+    app.add_option("--exposure", line.exposure, "Brightness; without it, by the light that there is")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->option_text("FACTOR [1]");
+    app.add_flag("!--no-outlines", line.outlines, "Do not draw the regions of interest");
+    const auto take_size = [&line](const std::string& text) {
+        const auto size = pair_of<int>(text, 'x');
+        const auto fits = [](int px) { return px >= smallest_px && px <= largest_px; };
+        if (!size || !fits(size->first) || !fits(size->second))
+            throw CLI::ValidationError("--size",
+                                       text + " is no size; write WIDTHxHEIGHT, each 16 to 8192 pixels");
+        line.size = {.width = size->first, .height = size->second};
+    };
+    app.add_option_function<std::string>("--size", take_size, "Size of the window or picture [px]")
+        ->option_text("WIDTHxHEIGHT [1280x720]");
+}
+
+void declare(CLI::App& app, CommandLine& line)
+{
+    declare_connection(app, line);
+    declare_camera(app, line);
+    declare_look(app, line);
+    app.add_flag("--follow", line.follow,
+                 "Add a frustum region that moves with the camera, until the viewer ends");
+    app.add_option("--name", line.client_name,
+                   "Name of this viewer, which frustum regions can follow; without it, from host and process")
+        ->option_text("NAME");
+    CLI::Option* const screenshot =
+        app.add_option("--screenshot", line.screenshot, "Write one PNG picture and end; needs no screen")
+            ->option_text("FILE");
+    app.add_option("--frames", line.frames, "With --screenshot: complete frames to wait for")
+        ->check(CLI::PositiveNumber)
+        ->needs(screenshot)
+        ->option_text("N [1]");
+    app.set_version_flag("--version", "slod-viewer " + std::string(version()));
+}
+
+ExitCode code_of(const CLI::ParseError& error)
+{
+    switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
+    case CLI::ExitCodes::Success:
+        return ExitCode::Success;
+    case CLI::ExitCodes::ConversionError:
+    case CLI::ExitCodes::ValidationError:
+        return ExitCode::InvalidArgument;
+    default:
+        return ExitCode::Usage;
+    }
+}
+
+} // namespace
+
+std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* const* argv)
+{
+    CLI::App app("Shows what a running slod-server simulates, and steers its regions of interest.",
+                 "slod-viewer");
+    app.footer(
+        "In the window, h shows keys and mouse. CYCLONEDDS_URI, when set, replaces the profile.\n"
+        "Exit codes: 0 done, 1 network or screen not usable, 2 wrong usage, 65 invalid value, 66 unknown\n"
+        "name, 69 no server, 75 timed out, 77 not permitted.\n"
+        "Example: slod-viewer --screenshot galaxy.png --camera \"distance=60 elevation=40\" --log");
+    CommandLine line;
+    declare(app, line);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        app.exit(error);
+        return code_of(error);
+    }
+    return line;
+}
+
+} // namespace slod::viewer

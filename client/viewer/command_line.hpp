@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/exit_code.hpp"
+#include "idl/profile.hpp"
+#include "view/camera.hpp"
+#include "view/colour_scale.hpp"
+
+namespace slod::viewer {
+
+using client::ExitCode;
+
+/// What was asked for.
+struct CommandLine {
+    double timeout_s = 3; ///< without a screen: for a server, and for its frames
+    std::uint32_t domain = 0;
+    wire::Profile profile = wire::Profile::Loopback;
+    std::string region; ///< the only one whose clusters are shown; empty: all
+
+    std::optional<view::Camera> camera; ///< named, or read from the camera file
+    std::filesystem::path camera_file = "slod-camera.txt";
+    view::ColourScale colours;
+    double exposure = 1;
+    bool outlines = true; ///< of the regions
+    view::Viewport size;
+
+    bool follow = false;       ///< add a frustum region that moves with the camera
+    std::string client_name{}; ///< of the view; empty: made from host and process
+
+    std::filesystem::path screenshot; ///< empty: open a window
+    std::uint64_t frames = 1;         ///< complete ones to wait for before the screenshot
+};
+
+/// Reads the command line. When it is wrong, or asks for --help or --version alone, has already printed what
+/// there is to say and gives the exit code.
+std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* const* argv);
+
+} // namespace slod::viewer

@@ -1,0 +1,96 @@
+#include "viewer/headless.hpp"
+
+#include <cstdio>
+
+#include "common/connection.hpp"
+#include "view/scene_bounds.hpp"
+#include "viewer/offscreen.hpp"
+#include "viewer/picture_file.hpp"
+#include "viewer/scene_painter.hpp"
+
+namespace slod::viewer {
+
+namespace {
+
+using client::Clock;
+
+void complain(const std::string& sentence)
+{
+    std::fprintf(stderr, "slod-viewer: %s\n", sentence.c_str());
+}
+
+/// Waits until `arrived()`; false when `end` or a stop came first.
+template <class Condition>
+bool wait_until(client::Connection& connection, const std::stop_token& stop, Clock::time_point end,
+                const Condition& arrived)
+{
+    while (!arrived()) {
+        const Clock::time_point now = Clock::now();
+        if (now >= end || stop.stop_requested())
+            return false;
+        connection.wait(stop, end - now);
+    }
+    return true;
+}
+
+std::vector<OutlinedRegion> outlines(const client::Connection::Regions& regions, const view::Camera& camera)
+{
+    std::vector<OutlinedRegion> made;
+    for (const auto& [name, region] : regions)
+        made.push_back({.segments = view::outline(region, nullptr, camera.distance),
+                        .handles{},
+                        .colour = view::region_colour(name)});
+    return made;
+}
+
+void draw(const CommandLine& line, const client::Connection& connection)
+{
+    const client::ClusterFrame& frame = *connection.frame();
+    const view::Ball bulk = view::bulk_of(frame);
+    const Look look{.camera = line.camera.value_or(view::fitted(view::Camera{}, bulk.centre, bulk.radius)),
+                    .colours = line.colours,
+                    .detail{},
+                    .exposure = line.exposure,
+                    .finest = true};
+    const OffscreenContext context;
+    const Target target(line.size.width, line.size.height, GL_RGBA8);
+    ScenePainter painter;
+    painter.paint(&frame, look, line.size,
+                  line.outlines ? outlines(connection.regions(), look.camera) : std::vector<OutlinedRegion>{},
+                  target.framebuffer());
+    write_png(read_pixels(line.size), line.screenshot);
+}
+
+} // namespace
+
+ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
+{
+    client::Connection connection(line.domain, line.profile,
+                                  {.clusters = true, .regions = true, .region = line.region});
+    const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                     std::chrono::duration<double>(line.timeout_s));
+    const auto present = [&] { return connection.status().contact != client::Contact::NoServer; };
+    if (!wait_until(connection, stop, end, present)) {
+        complain(connection.status().reason +
+                 "; start slod-server, name its --domain and --profile, or wait longer with --timeout");
+        return ExitCode::NoServer;
+    }
+    const auto complete = [&] {
+        return connection.complete_frames() >= line.frames && connection.knows_all_regions();
+    };
+    if (!wait_until(connection, stop, end, complete)) {
+        const client::Status status = connection.status();
+        complain(std::to_string(connection.complete_frames()) + " of " + std::to_string(line.frames) +
+                 " frames came in time" + (status.reason.empty() ? "" : ": " + status.reason) +
+                 "; wait longer with --timeout");
+        return status.contact == client::Contact::NoServer ? ExitCode::NoServer : ExitCode::TimedOut;
+    }
+    if (!line.region.empty() && !connection.regions().contains(line.region)) {
+        complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
+        return ExitCode::NotFound;
+    }
+    draw(line, connection);
+    return ExitCode::Success;
+}
+
+} // namespace slod::viewer
