@@ -1,5 +1,7 @@
 #include "common/connection.hpp"
 
+#include "common/domains_in_use.hpp"
+
 namespace slod::client {
 
 namespace {
@@ -10,6 +12,16 @@ constexpr int samples_per_poll = 256;
 std::chrono::nanoseconds age(const dds_sample_info_t& info)
 {
     return std::chrono::nanoseconds(dds_time() - info.source_timestamp);
+}
+
+/// What may be wrong when nobody is heard: the other domains that this machine's programs use.
+std::string elsewhere(std::uint32_t domain)
+{
+    std::string others;
+    for (const std::uint32_t used : domains_in_use())
+        if (used != domain)
+            others += (others.empty() ? "" : ", ") + std::to_string(used);
+    return others.empty() ? "" : "; programs on this machine use DDS domain " + others;
 }
 
 } // namespace
@@ -61,7 +73,7 @@ Status Connection::status() const
         " on domain " + std::to_string(domain_) + " (" + wire::configuration_source(profile_) + ")";
     if (state_reader_.misfits() > 0)
         return {Contact::NoServer, "the server" + where + " speaks another version of the protocol"};
-    return {Contact::NoServer, "no server was heard" + where};
+    return {Contact::NoServer, "no server was heard" + where + elsewhere(domain_)};
 }
 
 void Connection::take_states()
