@@ -1,0 +1,17 @@
+#include "common/alarm_board.hpp"
+
+namespace slod::client {
+
+void AlarmBoard::poll()
+{
+    constexpr int alarms_per_poll = 64;
+    reader_.take_each(alarms_per_poll, [this](const wire::Alarm& alarm, const dds_sample_info_t& info) {
+        const std::pair key{wire::uuid_of(alarm.session), std::string(alarm.name)};
+        if (info.valid_data)
+            entries_[key] = {.severity = alarm.severity, .text = alarm.text};
+        if (info.instance_state != DDS_IST_ALIVE)
+            entries_.erase(key);
+    });
+}
+
+} // namespace slod::client
