@@ -53,6 +53,12 @@ double share_of(double value, const Range& range, bool logarithmic)
     return share > 0 ? std::min(share, 1.0) : 0; // NaN is as 0
 }
 
+double value_at(double share, const Range& range, bool logarithmic)
+{
+    return logarithmic ? range.low * std::pow(range.high / range.low, share)
+                       : std::lerp(range.low, range.high, share);
+}
+
 Range range_of(std::span<const float> values, bool logarithmic)
 {
     constexpr std::size_t enough = 8192; // percentiles of so many are exact to half of a percent

@@ -42,6 +42,9 @@ struct Range {
 /// Where in the range a value is, in [0, 1]. On a logarithmic scale what is not above 0 is at the low end.
 double share_of(double value, const Range& range, bool logarithmic);
 
+/// The value of a share: what share_of() turns back.
+double value_at(double share, const Range& range, bool logarithmic);
+
 /// From the second to the 98th percentile of the values (of those above 0 on a logarithmic scale), so that
 /// single outliers do not take the colours from all others; widened when it would be empty.
 Range range_of(std::span<const float> values, bool logarithmic);
