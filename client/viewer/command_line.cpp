@@ -132,6 +132,9 @@ void declare(CLI::App& app, CommandLine& line)
     app.add_option("--name", line.client_name,
                    "Name of this viewer, which frustum regions can follow; without it, from host and process")
         ->option_text("NAME");
+    app.add_option("--output-dir", line.output_folder, "Folder of the pictures that key e writes")
+        ->check(CLI::ExistingDirectory)
+        ->option_text("FOLDER [.]");
     CLI::Option* const screenshot =
         app.add_option("--screenshot", line.screenshot, "Write one PNG picture and end; needs no screen")
             ->option_text("FILE");

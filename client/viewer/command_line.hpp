@@ -32,8 +32,9 @@ struct CommandLine {
     bool follow = false;       ///< add a frustum region that moves with the camera
     std::string client_name{}; ///< of the view; empty: made from host and process
 
-    std::filesystem::path screenshot; ///< empty: open a window
-    std::uint64_t frames = 1;         ///< complete ones to wait for before the screenshot
+    std::filesystem::path output_folder = "."; ///< of pictures that are asked for in the window
+    std::filesystem::path screenshot;          ///< empty: open a window
+    std::uint64_t frames = 1;                  ///< complete ones to wait for before the screenshot
 };
 
 /// Reads the command line. When it is wrong, or asks for --help or --version alone, has already printed what

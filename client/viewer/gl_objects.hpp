@@ -1,7 +1,8 @@
 #pragma once
 
-#include <epoxy/gl.h>
 #include <utility>
+
+#include <epoxy/gl.h>
 
 /// Owners of OpenGL's objects. A context must be current while they live.
 namespace slod::viewer {

@@ -6,6 +6,7 @@
 #include "idl/stop_on_signal.hpp"
 #include "viewer/command_line.hpp"
 #include "viewer/headless.hpp"
+#include "viewer/viewer.hpp"
 
 int main(int argc, char** argv)
 try {
@@ -14,7 +15,8 @@ try {
     if (const auto* code = std::get_if<slod::viewer::ExitCode>(&parsed))
         return int(*code);
     const auto& line = std::get<slod::viewer::CommandLine>(parsed);
-    return int(slod::viewer::run_headless(line, signals.token()));
+    const auto run = line.screenshot.empty() ? slod::viewer::run_in_window : slod::viewer::run_headless;
+    return int(run(line, signals.token()));
 } catch (const slod::wire::DdsError& error) {
     std::fprintf(stderr, "slod-viewer: %s\n", error.what());
     return int(error.not_permitted() ? slod::viewer::ExitCode::NotPermitted

@@ -1,8 +1,9 @@
 #include "viewer/offscreen.hpp"
 
 #include <array>
-#include <epoxy/egl.h>
 #include <stdexcept>
+
+#include <epoxy/egl.h>
 
 namespace slod::viewer {
 

@@ -1,13 +1,13 @@
 #include "viewer/picture_file.hpp"
 
 #include <cerrno>
-#include <epoxy/gl.h>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
+#include <epoxy/gl.h>
 #include <gd.h>
 
 namespace slod::viewer {

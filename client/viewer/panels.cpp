@@ -1,0 +1,180 @@
+#include "viewer/panels.hpp"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "viewer/hands.hpp"
+
+namespace slod::viewer {
+
+namespace {
+
+ImVec4 colour_of(client::Contact contact)
+{
+    switch (contact) {
+    case client::Contact::Live:
+        return {0.4F, 0.9F, 0.5F, 1};
+    case client::Contact::Stalled:
+        return {1, 0.75F, 0.2F, 1};
+    case client::Contact::NoServer:
+        break;
+    }
+    return {1, 0.4F, 0.4F, 1};
+}
+
+void draw_alarms(const Model& model)
+{
+    for (const auto& [key, alarm] : model.alarms.entries())
+        if (model.connection.server() && key.first == model.connection.server()->session)
+            ImGui::TextWrapped("%s: %s", key.second.c_str(), alarm.text.c_str());
+}
+
+void draw_traffic(const Model& model)
+{
+    const client::StreamMeter::Report traffic = model.connection.clusters_traffic();
+    ImGui::Text("received  %.1f samples/s, %.2f MB/s", traffic.rate_hz, traffic.bytes_per_s * 1e-6);
+    ImGui::Text("latency   p50 %.1f ms, p99 %.1f ms", traffic.latency_p50_ms, traffic.latency_p99_ms);
+    ImGui::Text("total     %.1f MB, %llu frames", double(traffic.bytes) * 1e-6,
+                static_cast<unsigned long long>(model.connection.complete_frames()));
+    ImGui::Text("missed    %llu samples", static_cast<unsigned long long>(traffic.lost));
+}
+
+void plot(const view::History& history, const char* label, const std::string& series, const char* unit)
+{
+    const auto found = history.series().find(series);
+    if (found == history.series().end())
+        return;
+    const std::vector<float>& values = found->second;
+    const float highest = *std::max_element(values.begin(), values.end());
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "%s %.3g %s", label, double(values.back()), unit);
+    ImGui::PushID(series.c_str());
+    ImGui::PlotLines("", values.data(), int(values.size()), 0, text.data(), 0, 1.2F * highest,
+                     ImVec2(250, 32));
+    ImGui::PopID();
+}
+
+/// Where the panels of a side begin.
+void place(float from_left, float from_top)
+{
+    ImGui::SetNextWindowPos(ImVec2(from_left, from_top), ImGuiCond_FirstUseEver);
+}
+
+constexpr ImGuiWindowFlags fitting = ImGuiWindowFlags_AlwaysAutoResize;
+constexpr float margin = 8;
+
+} // namespace
+
+void Panels::draw(Model& model)
+{
+    if (model.show_panels) {
+        draw_connection_panel(model);
+        draw_performance_panel(model);
+        draw_steering_panel(model);
+        draw_colour_panel(model);
+        draw_region_panel(model, draft_);
+    }
+    if (model.show_help)
+        draw_help(model.show_help);
+}
+
+void draw_connection_panel(const Model& model)
+{
+    place(margin, margin);
+    if (ImGui::Begin("Connection", nullptr, fitting)) {
+        const client::Status status = model.connection.status();
+        ImGui::TextColored(colour_of(status.contact), "%s",
+                           names(status.contact)[std::size_t(status.contact)].data());
+        if (!status.reason.empty()) {
+            ImGui::PushTextWrapPos(260);
+            ImGui::TextWrapped("%s", status.reason.c_str());
+            ImGui::PopTextWrapPos();
+        }
+        if (const client::ServerInfo* server = model.connection.server()) {
+            ImGui::Text("%s", server->scene_title.c_str());
+            ImGui::Text("slod-server %s on %s, process %u", server->version.c_str(), server->host.c_str(),
+                        server->process);
+            if (model.connection.other_servers() > 0)
+                ImGui::Text("%zu more servers on this domain", model.connection.other_servers());
+        }
+        draw_traffic(model);
+        draw_alarms(model);
+        if (!model.steering.notice().empty()) {
+            ImGui::Separator();
+            ImGui::PushTextWrapPos(260);
+            ImGui::TextWrapped("%s", model.steering.notice().c_str());
+            ImGui::PopTextWrapPos();
+        }
+    }
+    ImGui::End();
+}
+
+void draw_performance_panel(const Model& model)
+{
+    place(margin, 210);
+    if (ImGui::Begin("Server", nullptr, fitting)) {
+        if (const client::ServerStats* stats = model.connection.stats()) {
+            ImGui::Text("frame     %llu, time %.4g", static_cast<unsigned long long>(stats->frame),
+                        stats->time);
+            ImGui::Text("particles %llu", static_cast<unsigned long long>(stats->particles));
+            ImGui::Text("clusters  %llu", static_cast<unsigned long long>(stats->clusters));
+        }
+        plot(model.history, "frame rate", "frame_rate_hz", "Hz");
+        plot(model.history, "real time factor", "real_time_factor", "");
+        plot(model.history, "work", "work_ms", "ms");
+        if (ImGui::CollapsingHeader("milliseconds by phase"))
+            for (const std::string& phase : model.history.phases())
+                plot(model.history, phase.c_str(), phase, "ms");
+        ImGui::Text("viewer    %.1f pictures/s", double(ImGui::GetIO().Framerate));
+    }
+    ImGui::End();
+}
+
+void draw_steering_panel(Model& model)
+{
+    ImGui::SetNextWindowPos(ImVec2(margin, ImGui::GetIO().DisplaySize.y - margin), ImGuiCond_FirstUseEver,
+                            ImVec2(0, 1));
+    if (ImGui::Begin("Steering", nullptr, fitting)) {
+        const client::ServerInfo* const server = model.connection.server();
+        const bool paused = server && server->paused;
+        if (ImGui::Button(paused ? "resume" : "pause"))
+            model.toggle_pause();
+        if (paused) {
+            ImGui::SameLine();
+            if (ImGui::Button("step"))
+                model.step(1);
+        }
+        bool frozen = model.frozen();
+        if (ImGui::Checkbox("freeze the view", &frozen))
+            model.freeze(frozen);
+        bool follows = model.steering.follows();
+        if (ImGui::Checkbox("region follows the camera", &follows))
+            model.steering.follow(follows, model.client_view());
+        if (ImGui::Button("picture"))
+            model.picture_wanted = true;
+        ImGui::SameLine();
+        if (ImGui::Button("fit"))
+            model.fit_camera();
+        ImGui::SameLine();
+        ImGui::TextDisabled("h: help");
+    }
+    ImGui::End();
+}
+
+void draw_help(bool& open)
+{
+    ImGui::SetNextWindowPos(ImVec2(300, 120), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Help", &open, fitting) && ImGui::BeginTable("controls", 2)) {
+        for (const Control& control : controls()) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(control.input);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(control.effect);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+} // namespace slod::viewer

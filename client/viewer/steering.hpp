@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/commander.hpp"
+#include "common/view_writer.hpp"
+#include "view/region_editor.hpp"
+
+namespace slod::viewer {
+
+/// Sends what the viewer wants of the server, and tells how it was answered.
+class Steering {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// `participant` must outlive it; `name` is what frustum regions follow. Throws wire::DdsError.
+    Steering(const wire::Participant& participant, std::string name);
+
+    /// The server that is meant from here on; forgets what was asked of another one.
+    void set_server(const wire::Uuid& session);
+
+    /// Sends a command as soon as it may be sent.
+    void send(client::CommandRequest request);
+
+    /// Adds a frustum region that follows the view, or removes it again.
+    void follow(bool wanted, const client::ClientView& view);
+    bool follows() const { return follows_; }
+
+    /// Takes in answers, sends what is due of the editor and the queue, and the view when it changed.
+    void poll(const client::ClientView& view, Clock::time_point now);
+
+    view::RegionEditor editor;
+
+    /// What came of the last command that was refused, or that somebody asked for in a panel; empty: nothing.
+    const std::string& notice() const { return notice_; }
+    void set_notice(std::string notice) { notice_ = std::move(notice); }
+
+private:
+    void take_answers();
+    void write_view(const client::ClientView& view, Clock::time_point now);
+
+    client::Commander commander_;
+    client::ViewWriter view_writer_;
+    wire::Uuid session_{};
+    std::deque<client::CommandRequest> queue_;
+    std::map<std::uint64_t, std::string> asked_; ///< what a command in flight asks for, by number
+    std::string notice_;
+    bool follows_ = false;
+    std::optional<client::ClientView> written_;
+    Clock::time_point written_at_{};
+};
+
+} // namespace slod::viewer
