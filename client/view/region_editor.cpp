@@ -63,7 +63,7 @@ std::optional<RegionEditor::Grip> RegionEditor::grip_at(const Lens& lens, const 
         for (const Handle& handle : all_handles()) {
             const auto at = lens.project(place_of(handle, *pose));
             const double distance = at ? std::hypot(at->x - pixel.x, at->y - pixel.y) : reach_px;
-            if (distance < nearest) {
+            if (distance < nearest && can_be_dragged(handle, *pose, lens)) {
                 nearest = distance;
                 found = {name, handle};
             }

@@ -130,8 +130,14 @@ Vector place_of(const Handle& handle, const RegionPose& pose)
 
 const std::vector<Handle>& all_handles()
 {
-    static const std::vector<Handle> handles{{0, -1}, {0, 1}, {1, -1}, {1, 1}, {2, -1}, {2, 1}, {-1, 0}};
+    static const std::vector<Handle> handles{{-1, 0}, {0, -1}, {0, 1}, {1, -1}, {1, 1}, {2, -1}, {2, 1}};
     return handles;
+}
+
+bool can_be_dragged(const Handle& handle, const RegionPose& pose, const Lens& lens)
+{
+    const auto at = lens.project(place_of(handle, pose));
+    return at && (handle.is_centre() || along_axis(pose.centre, handle.axis, lens.ray(*at)));
 }
 
 RegionPose dragged(const RegionPose& pose, const Handle& handle, const Lens& lens, const Pixel& from,

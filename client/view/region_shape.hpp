@@ -33,8 +33,11 @@ struct Handle {
 
 Vector place_of(const Handle& handle, const RegionPose& pose);
 
-/// All handles of a region, the middle last: where it covers a face, the face is taken.
+/// All handles of a region, the middle first.
 const std::vector<Handle>& all_handles();
+
+/// Whether a handle can be dragged as it is seen: not a face whose axis points at the eye.
+bool can_be_dragged(const Handle& handle, const RegionPose& pose, const Lens& lens);
 
 /// The pose after its handle was dragged from one pixel to another; the same pose when the pixels say
 /// nothing, as where an axis is seen end on.

@@ -38,12 +38,15 @@ view::Pixel pixel_of(const ImVec2& place)
     return {place.x * scale.x, place.y * scale.y};
 }
 
-void use_mouse(Model& model)
+void use_mouse(Model& model, const std::optional<view::Pixel>& press)
 {
     const ImGuiIO& io = ImGui::GetIO();
     view::RegionEditor& editor = model.steering.editor;
     const view::Pixel cursor = pixel_of(io.MousePos);
     const view::Pixel moved = pixel_of(io.MouseDelta);
+    if (press && !io.WantCaptureMouse && model.show_outlines)
+        if (const auto grip = editor.grip_at(model.lens(), *press))
+            editor.begin(*grip, *press);
     if (editor.dragging()) {
         editor.drag(model.lens(), cursor);
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left))
@@ -52,11 +55,6 @@ void use_mouse(Model& model)
     }
     if (io.WantCaptureMouse)
         return;
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && model.show_outlines)
-        if (const auto grip = editor.grip_at(model.lens(), cursor)) {
-            editor.begin(*grip, cursor);
-            return;
-        }
     view::Camera& camera = model.look.camera;
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
         camera = view::orbited(camera, moved.x, moved.y);
@@ -143,12 +141,12 @@ std::span<const Control> controls()
     return all_controls;
 }
 
-void use_hands(Model& model, std::span<const KeyPress> keys)
+void use_hands(Model& model, const Input& input)
 {
-    use_mouse(model);
+    use_mouse(model, input.press);
     if (ImGui::GetIO().WantTextInput)
         return;
-    for (const KeyPress& press : keys)
+    for (const KeyPress& press : input.keys)
         press.control ? use_key_with_control(model, press.key) : use_key(model, press.key);
 }
 

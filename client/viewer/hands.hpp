@@ -16,6 +16,6 @@ std::span<const Control> controls();
 
 /// Lets the mouse, as Dear ImGui holds it, turn the camera and drag regions, and the keys do what they do.
 /// What a panel takes is not taken here.
-void use_hands(Model& model, std::span<const KeyPress> keys);
+void use_hands(Model& model, const Input& input);
 
 } // namespace slod::viewer

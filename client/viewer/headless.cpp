@@ -75,14 +75,17 @@ ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
                  "; start slod-server, name its --domain and --profile, or wait longer with --timeout");
         return ExitCode::NoServer;
     }
+    const client::ServerInfo& server = *connection.server();
+    std::fprintf(stderr, "slod-viewer: hears slod-server %s on %s, process %u\n", server.version.c_str(),
+                 server.host.c_str(), server.process);
     const auto complete = [&] {
         return connection.complete_frames() >= line.frames && connection.knows_all_regions();
     };
-    if (!wait_until(connection, stop, end, complete)) {
+    if (!wait_until(connection, stop, end, [&] { return complete() || !present(); }) || !complete()) {
         const client::Status status = connection.status();
         complain(std::to_string(connection.complete_frames()) + " of " + std::to_string(line.frames) +
                  " frames came in time" + (status.reason.empty() ? "" : ": " + status.reason) +
-                 "; wait longer with --timeout");
+                 (present() ? "; wait longer with --timeout" : "; start it again"));
         return status.contact == client::Contact::NoServer ? ExitCode::NoServer : ExitCode::TimedOut;
     }
     if (!line.region.empty() && !connection.regions().contains(line.region)) {

@@ -52,7 +52,7 @@ void Viewer::show_frame()
     if (model_.viewport.width == 0 || model_.viewport.height == 0) // the window is minimised
         return;
     window_.begin_panels();
-    use_hands(model_, window_.take_keys());
+    use_hands(model_, window_.take_input());
     paint_scene();
     write_picture();
     panels_.draw(model_);

@@ -1,7 +1,6 @@
 #include "viewer/window.hpp"
 
 #include <stdexcept>
-#include <utility>
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -22,6 +21,16 @@ namespace {
                              "; start it on a desktop, or draw without a screen with --screenshot FILE");
 }
 
+/// Pixels of the picture per unit of GLFW's places.
+view::Pixel pixels_per_unit(GLFWwindow* window)
+{
+    int width = 1, height = 1;
+    view::Viewport picture;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &picture.width, &picture.height);
+    return {double(picture.width) / width, double(picture.height) / height};
+}
+
 } // namespace
 
 Window::Library::Library()
@@ -36,23 +45,31 @@ Window::Library::~Library()
 }
 
 /// Dear ImGui's own callbacks, installed later, call these.
-void Window::watch(GLFWwindow* window, Input& input)
+void Window::watch_input()
 {
-    glfwSetWindowUserPointer(window, &input);
-    static const auto input_of = [](GLFWwindow* w) -> Input& {
-        return *static_cast<Input*>(glfwGetWindowUserPointer(w));
+    glfwSetWindowUserPointer(window_, this);
+    static const auto self = [](GLFWwindow* window) -> Window& {
+        return *static_cast<Window*>(glfwGetWindowUserPointer(window));
     };
-    static const auto touch = [](GLFWwindow* w) { input_of(w).touched = true; };
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { touch(w); });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { touch(w); });
-    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { touch(w); });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int) { touch(w); });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { touch(w); });
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { touch(w); });
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-        touch(w);
+    static const auto touch = [](GLFWwindow* window) { self(window).input_.touched = true; };
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { touch(window); });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int) { touch(window); });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { touch(window); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { touch(window); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+        touch(window);
+        const view::Pixel scale = pixels_per_unit(window);
+        self(window).cursor_ = {x * scale.x, y * scale.y};
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+        touch(window);
+        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
+            self(window).input_.press = self(window).cursor_;
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+        touch(window);
         if (action == GLFW_PRESS)
-            input_of(w).keys.push_back({.key = key, .control = (modifiers & GLFW_MOD_CONTROL) != 0});
+            self(window).input_.keys.push_back({.key = key, .control = (modifiers & GLFW_MOD_CONTROL) != 0});
     });
 }
 
@@ -66,7 +83,7 @@ Window::Window(const view::Viewport& size, const std::string& title)
         fail("no window with OpenGL 3.3 can be opened");
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
-    watch(window_, input_);
+    watch_input();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // leaves no file behind
     ImGui::StyleColorsDark();
@@ -90,7 +107,7 @@ bool Window::closing() const
 bool Window::wait_for_input(double seconds)
 {
     glfwWaitEventsTimeout(seconds);
-    return std::exchange(input_.touched, false);
+    return input_.touched;
 }
 
 view::Viewport Window::viewport() const

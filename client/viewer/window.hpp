@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "view/camera.hpp"
+#include "view/lens.hpp"
 
 struct GLFWwindow;
 
@@ -14,6 +15,13 @@ namespace slod::viewer {
 struct KeyPress {
     int key;
     bool control; ///< with Ctrl
+};
+
+/// What came since it was last asked for.
+struct Input {
+    bool touched = false; ///< anything came
+    std::vector<KeyPress> keys{};
+    std::optional<view::Pixel> press{}; ///< where the left button went down
 };
 
 /// The window on the screen, its OpenGL 3.3 context, and Dear ImGui in it. One at a time.
@@ -27,28 +35,22 @@ public:
 
     bool closing() const;
 
-    /// Waits for input, at most so long. True when there was any.
+    /// Waits for input, at most so long. True when there is any to take.
     bool wait_for_input(double seconds);
 
     /// Size of what is drawn into [px].
     view::Viewport viewport() const;
 
-    /// Keys pressed since the last call, however shortly: Dear ImGui only sees those that are held when a
-    /// frame begins.
-    std::vector<KeyPress> take_keys() { return std::exchange(input_.keys, {}); }
+    /// What came since the last call, however shortly and wherever the cursor is since: Dear ImGui only knows
+    /// how things are when a frame begins.
+    Input take_input() { return std::exchange(input_, {}); }
 
     void begin_panels();
     void end_panels(); ///< draws them
     void show();       ///< makes what was drawn visible
 
 private:
-    /// What came since it was last asked for.
-    struct Input {
-        bool touched = false;
-        std::vector<KeyPress> keys;
-    };
-
-    static void watch(GLFWwindow* window, Input& input);
+    void watch_input();
 
     /// GLFW itself.
     struct Library {
@@ -59,6 +61,7 @@ private:
     Library library_;
     GLFWwindow* window_ = nullptr;
     Input input_;
+    view::Pixel cursor_; ///< at the last event: GLFW itself only tells where it is at this moment
 };
 
 } // namespace slod::viewer

@@ -78,6 +78,15 @@ TEST_F(ViewerEditor, TheHandleUnderTheCursorIsFound)
     EXPECT_FALSE(editor.grip_at(lens, {right_face.x + 50, right_face.y}));
 }
 
+// Seen from the front both faces along y are where the middle is.
+TEST_F(ViewerEditor, AFaceThatIsSeenEndOnDoesNotHideTheMiddle)
+{
+    const auto found = editor.grip_at(front(), {400, 300});
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->handle.is_centre());
+    EXPECT_FALSE(can_be_dragged({.axis = 1, .side = 1}, *pose_of(box(1)), front()));
+}
+
 TEST_F(ViewerEditor, ADraggedRegionFollowsTheCursorAtOnce)
 {
     grip(middle);
