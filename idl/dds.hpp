@@ -123,6 +123,13 @@ public:
                dds_unregister_instance(endpoint_.end.handle(), &message) == DDS_RETCODE_OK;
     }
 
+    /// Waits until every reader has what was written, or `timeout` passes: a writer that ends takes along
+    /// what is still under way.
+    void flush(std::chrono::nanoseconds timeout)
+    {
+        dds_wait_for_acks(endpoint_.end.handle(), timeout.count());
+    }
+
     /// Whether any reader is there. Any thread may ask.
     bool matched() const
     {

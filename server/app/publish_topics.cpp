@@ -1,6 +1,7 @@
 #include "app/publish_topics.hpp"
 
 #include <array>
+#include <chrono>
 #include <string_view>
 #include <vector>
 
@@ -128,7 +129,10 @@ void PublishedTopics::publish_state()
 
 void PublishedTopics::take_leave()
 {
+    constexpr std::chrono::milliseconds patience{200}; // with clients that stand still
     outlet_.dispose(state_writer_, state_encoder_.encode(0, outlet_.largest_sample()));
+    state_writer_.flush(patience);
+    reply_writer_.flush(patience);
 }
 
 /// Once, and again when samples have doubled.

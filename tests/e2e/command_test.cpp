@@ -135,6 +135,30 @@ TEST_F(Commands, AClientThatDiesOrStopsDelaysNoFrame)
     EXPECT_EQ(connection.stats()->wire.refused_samples, 0U);
 }
 
+// Of the frames of a few removals far more than half are published: a wait for the reader that is frozen
+// would take a second of each, a hundred frames. The loop alone skips none unless the machine is overloaded.
+TEST_F(Commands, TheRemovalOfARegionDoesNotWaitForAReaderThatStandsStill)
+{
+    const Child running(server());
+    client::Connection connection = connect({.stats = true});
+    const Child frozen(slodctl({"watch", "--clusters"}));
+    const Child reading(slodctl({"watch", "--clusters"}));
+    ASSERT_TRUE(test::eventually([&] { return !frozen.output().empty() && !reading.output().empty(); }));
+    for (const char* region : {"a", "b", "c"})
+        ASSERT_EQ(control({"roi", "add", region, "--radius", "100"}), 0);
+    ASSERT_TRUE(sees(connection,
+                     [&] { return connection.stats() && connection.stats()->wire.published_frames > 9; }));
+    frozen.signal(SIGSTOP);
+    const wire::PublisherCounts before = connection.stats()->wire;
+    for (const char* region : {"a", "b", "c"})
+        ASSERT_EQ(control({"roi", "remove", region}), 0);
+    const std::uint64_t frame = connection.stats()->frame;
+    ASSERT_TRUE(sees(connection, [&] { return connection.stats()->frame > frame + 100; }));
+    const wire::PublisherCounts& after = connection.stats()->wire;
+    EXPECT_GT(2 * (after.published_frames - before.published_frames),
+              after.offered_frames - before.offered_frames);
+}
+
 TEST_F(Commands, TheRegionOfAClientThatIsGoneEndsWithItsLease)
 {
     Child running(server());
