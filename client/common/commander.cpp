@@ -131,8 +131,10 @@ void Commander::poll()
     });
     const Clock::time_point now = Clock::now();
     for (auto& [number, unanswered] : unanswered_)
-        if (now - unanswered.sent >= retry_period)
+        if (now - unanswered.sent >= retry_period) {
+            ++rewrites_;
             write(number, unanswered);
+        }
 }
 
 void Commander::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout)

@@ -81,6 +81,9 @@ public:
 
     std::size_t waiting() const { return unanswered_.size(); }
 
+    /// Requests sent again so far.
+    std::uint64_t rewrites() const { return rewrites_; }
+
 private:
     struct Unanswered {
         CommandRequest request;
@@ -95,6 +98,7 @@ private:
     wire::Writer<wire::Command> writer_;
     wire::Reader<wire::CommandReply> reader_;
     std::uint64_t last_number_ = 0;
+    std::uint64_t rewrites_ = 0;
     std::map<std::uint64_t, Unanswered> unanswered_; ///< by request number
     std::map<std::uint64_t, CommandAnswer> answers_; ///< likewise
 };
