@@ -1,0 +1,134 @@
+#include "stress/crew.hpp"
+#include "stress/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <string>
+
+namespace slod::stress {
+
+namespace {
+
+using client::Clock;
+
+/// Between two looks at the clients.
+constexpr std::chrono::milliseconds look_period{20};
+
+/// For many clients at once to find the server.
+constexpr std::chrono::seconds longest_start{60};
+
+/// For a client to report: it waits for answers and news twice.
+constexpr std::chrono::seconds longest_end{45};
+
+Clock::duration duration(double seconds)
+{
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/// Names of regions that no other run has.
+std::string new_run()
+{
+    constexpr std::uint32_t runs = 1000000;
+    return "stress" + std::to_string(std::random_device()() % runs) + "-";
+}
+
+Reader reader_of(std::uint32_t index, const Options& options)
+{
+    const std::array<std::pair<Reader, std::uint32_t>, 4> special{{{Reader::BestEffort, options.best_effort},
+                                                                   {Reader::Slow, options.slow},
+                                                                   {Reader::Stopped, options.stopped},
+                                                                   {Reader::Joining, options.joiners}}};
+    for (const auto& [reader, count] : special) {
+        if (index < count)
+            return reader;
+        index -= count;
+    }
+    return Reader::Steady;
+}
+
+std::vector<Order> orders_of(const Options& options)
+{
+    std::vector<Order> orders;
+    const std::string run = new_run();
+    for (std::uint32_t i = 0; i < options.subscribers + options.commanders; ++i) {
+        Order& order = orders.emplace_back();
+        if (i < options.subscribers)
+            order.reader = reader_of(i, options);
+        order.index = i;
+        order.run = run;
+        order.domain = options.domain;
+        order.profile = std::uint32_t(options.profile);
+        order.seed = options.seed + i;
+        order.region = options.region;
+        order.sleep_ms = options.slow_ms;
+        order.rates = options.rates;
+        order.extent = options.extent;
+        if (options.commands > 0)
+            order.commands = (options.commands + options.commanders - 1) / options.commanders;
+    }
+    return orders;
+}
+
+/// Watches the server and the crew until `condition()`, `patience` ends or stop is requested.
+template <class Condition>
+void watch_until(Observer& observer, Crew& crew, Clock::duration patience, const std::stop_token& stop,
+                 const Condition& condition)
+{
+    const Clock::time_point end = Clock::now() + patience;
+    while (!condition() && !stop.stop_requested() && Clock::now() < end) {
+        observer.watch(stop, look_period);
+        crew.poll();
+    }
+}
+
+void describe(Report& report, const client::Connection& connection)
+{
+    report.scene = connection.server()->scene_title;
+    report.host = connection.server()->host;
+    report.version = connection.server()->version;
+    report.sample_bytes = connection.server()->max_sample_bytes;
+    report.particles = connection.stats()->particles;
+    report.clusters = connection.stats()->clusters;
+}
+
+} // namespace
+
+ServerUse observe_rest(Observer& observer, double seconds, const std::stop_token& stop)
+{
+    observer.take_samples();
+    const Clock::time_point end = Clock::now() + duration(seconds);
+    while (!stop.stop_requested() && Clock::now() < end)
+        observer.watch(stop, look_period);
+    return use_of(observer.take_samples());
+}
+
+Report load(Observer& observer, const Options& options, const ServerUse& rest, const std::stop_token& stop)
+{
+    Crew crew(orders_of(options));
+    watch_until(observer, crew, longest_start, stop, [&] { return crew.unready() == 0; });
+    if (const std::size_t unready = crew.unready(); unready > 0 && !stop.stop_requested())
+        complain(std::to_string(unready) +
+                 " clients have not found the server in time; the report has what they saw from then on");
+    observer.take_samples();
+    crew.begin(Clock::now());
+    watch_until(observer, crew, duration(options.seconds), stop, [&] {
+        crew.stop_and_go(Clock::now());
+        return options.commands > 0 && crew.commanders_done();
+    });
+    const std::vector<ServerSample> samples = observer.take_samples();
+    crew.end();
+    watch_until(observer, crew, longest_end, std::stop_token(), [&] { return crew.all_done(); });
+
+    Report report{.subscribers = options.subscribers,
+                  .commanders = options.commanders,
+                  .missing_workers = crew.missing(),
+                  .rest = rest,
+                  .load = use_of(samples),
+                  .commands = report_of(crew.commanders())};
+    report.readers = report_of(crew.subscribers(), report.load.seconds);
+    describe(report, observer.connection());
+    return report;
+}
+
+} // namespace slod::stress

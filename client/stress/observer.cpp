@@ -1,0 +1,64 @@
+#include "stress/observer.hpp"
+
+#include "stress/process_use.hpp"
+
+#include <array>
+#include <string>
+#include <unistd.h>
+#include <utility>
+
+namespace slod::stress {
+
+namespace {
+
+std::string this_host()
+{
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return name.data();
+}
+
+} // namespace
+
+Observer::Observer(std::uint32_t domain, wire::Profile profile)
+    : connection_(domain, profile, {.stats = true})
+{}
+
+void Observer::watch(const std::stop_token& stop, std::chrono::nanoseconds timeout)
+{
+    connection_.wait(stop, timeout);
+    if (!sees_server())
+        return;
+    if (samples_.empty() || samples_.back().frame != connection_.stats()->frame)
+        samples_.push_back(sample());
+}
+
+std::vector<ServerSample> Observer::take_samples()
+{
+    constexpr double silence_s = 1;
+    if (!samples_.empty() && sample().when_s - samples_.back().when_s > silence_s)
+        samples_.push_back(sample());
+    return std::exchange(samples_, {});
+}
+
+ServerSample Observer::sample() const
+{
+    const client::ServerStats& stats = *connection_.stats();
+    const client::ServerInfo& server = *connection_.server();
+    const std::chrono::duration<double> now = client::Clock::now().time_since_epoch();
+    ServerSample sample{.when_s = now.count(),
+                        .frame = stats.frame,
+                        .published_frames = stats.wire.published_frames,
+                        .published_bytes = stats.wire.published_bytes,
+                        .delayed_frames = stats.wire.delayed_frames,
+                        .refused_samples = stats.wire.refused_samples,
+                        .encode_ms = stats.wire.encode_ms};
+    if (server.host == this_host()) {
+        const ProcessUse use = use_of_process(server.process);
+        sample.processor_s = use.processor_s;
+        sample.resident_mib = use.resident_mib;
+    }
+    return sample;
+}
+
+} // namespace slod::stress

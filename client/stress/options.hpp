@@ -1,0 +1,55 @@
+#pragma once
+
+#include "stress/limits.hpp"
+#include "stress/order.hpp"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "idl/profile.hpp"
+
+namespace slod::stress {
+
+/// What slod-stress tells its caller; the codes are slodctl's where they mean the same.
+enum class ExitCode : int {
+    Held = 0,
+    NotHeld = 1,          ///< what must be so was not, a limit or anything else; or it could not be tried
+    Usage = 2,            ///< the command line cannot be understood
+    InvalidArgument = 65, ///< it can, but a value in it cannot be right
+    NoServer = 69,
+    NotPermitted = 77, ///< the domain's security forbids it
+};
+
+/// What was asked for.
+struct Options {
+    std::uint32_t subscribers = 8; ///< with the following, which are among them
+    std::uint32_t best_effort = 0, slow = 0, stopped = 0, joiners = 0;
+    std::uint32_t commanders = 0;
+    double seconds = 10;        ///< of load
+    double baseline_s = 5;      ///< of rest before it; 0: none
+    Rates rates{};              ///< of each commander
+    std::uint64_t commands = 0; ///< of all commanders together; 0: any number
+    std::string region;         ///< whose clusters are read; empty: all
+    double slow_ms = 200;       ///< sleep of a slow subscriber after each sample
+    double extent = 1;          ///< commanders' regions lie within so far of the origin, in scene lengths
+    std::uint64_t seed = 1;
+    std::uint32_t domain = 0;
+    wire::Profile profile = wire::Profile::Loopback;
+    double timeout_s = 3;  ///< for a server
+    std::vector<int> cpus; ///< on which all clients run; empty: any
+    bool sweep = false;
+    bool json = false;
+    std::string picture; ///< file; empty: none
+    Limits limits;
+};
+
+/// Reads the command line. When it is wrong, or asks for --help or --version alone, has already printed what
+/// there is to say and gives the exit code.
+std::variant<Options, ExitCode> parse_options(int argc, const char* const* argv);
+
+/// Prints one sentence to stderr.
+void complain(const std::string& sentence);
+
+} // namespace slod::stress

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace slod::stress {
+
+/// What a process has taken of this machine; nothing where the kernel does not say.
+struct ProcessUse {
+    std::optional<double> processor_s; ///< user and system time of all its threads
+    std::optional<double> resident_mib;
+};
+
+/// From /proc/<process>/stat and statm.
+ProcessUse use_of_process(std::uint32_t process);
+
+/// From the text of those files, with the kernel's units: ticks per second and bytes per page.
+std::optional<double> processor_s(const std::string& stat, double ticks_per_s);
+std::optional<double> resident_mib(const std::string& statm, double page_bytes);
+
+} // namespace slod::stress

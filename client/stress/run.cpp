@@ -1,0 +1,121 @@
+#include "stress/run.hpp"
+
+#include "stress/picture.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <sched.h>
+#include <string>
+
+namespace slod::stress {
+
+namespace {
+
+using client::Clock;
+
+/// For this process and those it starts.
+bool run_on(const std::vector<int>& cpus)
+{
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int cpu : cpus)
+        CPU_SET(std::size_t(cpu), &set);
+    return cpus.empty() || sched_setaffinity(0, sizeof set, &set) == 0;
+}
+
+bool find_server(Observer& observer, double timeout_s, const std::stop_token& stop)
+{
+    const Clock::time_point end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
+    while (!observer.sees_server() && !stop.stop_requested() && Clock::now() < end)
+        observer.watch(stop, std::chrono::milliseconds(20));
+    return observer.sees_server();
+}
+
+/// What would make the figures mean something else; empty when nothing does.
+std::string caveat(const Options& options, const client::Connection& connection, const ServerUse& rest)
+{
+    if (rest.published_frames > 0)
+        return "others read cluster states while the server was to be at rest";
+    if (connection.server()->paused)
+        return "the simulation is paused";
+    if (options.subscribers > 0)
+        if (const auto warning = wire::receive_buffer_warning(connection.server()->max_sample_bytes))
+            return *warning;
+    return {};
+}
+
+/// One run, or for a sweep one for each number of subscribers.
+std::vector<Report> reports_of(Observer& observer, const Options& options, const std::stop_token& stop)
+{
+    const ServerUse rest = observe_rest(observer, options.baseline_s, stop);
+    if (!options.sweep)
+        return {load(observer, options, rest, stop)};
+    std::vector<Report> reports;
+    Options step = options;
+    for (step.subscribers = 1; step.subscribers <= options.subscribers && !stop.stop_requested();
+         step.subscribers *= 2) {
+        reports.push_back(load(observer, step, rest, stop));
+        std::fputs(sweep_line(reports.back()).c_str(), stdout);
+        std::fflush(stdout);
+    }
+    return reports;
+}
+
+void print_json(const std::vector<Report>& reports, const Limits& limits, bool sweep)
+{
+    Json list = Json::array();
+    for (const Report& report : reports) {
+        list.push_back(json_of(report));
+        list.back()["checks"] = json_of(checks(report, limits));
+    }
+    std::puts((sweep ? Json{{"sweep", list}} : list.at(0)).dump().c_str());
+}
+
+bool draw(const std::vector<Report>& reports, const Options& options)
+{
+    if (options.picture.empty())
+        return true;
+    const std::string script = options.sweep ? sweep_script(reports, options.picture)
+                                             : load_script(reports.front(), options.picture);
+    if (run_gnuplot(script))
+        return true;
+    complain("cannot draw " + options.picture + "; is gnuplot installed (package gnuplot-nox)?");
+    return false;
+}
+
+} // namespace
+
+ExitCode run(const Options& options, const std::stop_token& stop)
+{
+    if (!run_on(options.cpus)) {
+        complain("this machine has not all the processors that --cpus names");
+        return ExitCode::InvalidArgument;
+    }
+    Observer observer(options.domain, options.profile);
+    if (!find_server(observer, options.timeout_s, stop)) {
+        complain(observer.connection().status().reason +
+                 "; start slod-server, name its --domain and --profile, or wait longer with --timeout");
+        return ExitCode::NoServer;
+    }
+    const std::vector<Report> reports = reports_of(observer, options, stop);
+    if (reports.empty())
+        return ExitCode::NotHeld;
+    if (const std::string warning = caveat(options, observer.connection(), reports.front().rest);
+        !warning.empty())
+        complain("warning: " + warning);
+    bool held = true;
+    for (const Report& report : reports) {
+        const std::vector<Check> judged = checks(report, options.limits);
+        held = held && all_held(judged);
+        if (!options.sweep)
+            std::fputs((text_of(report) + text_of(judged)).c_str(), stdout);
+    }
+    const bool drawn = draw(reports, options);
+    if (options.json)
+        print_json(reports, options.limits, options.sweep);
+    return held && drawn ? ExitCode::Held : ExitCode::NotHeld;
+}
+
+} // namespace slod::stress
