@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <fcntl.h>
+#include <filesystem>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -42,10 +43,11 @@ ClientProcess::ClientProcess(const std::string& order)
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe");
     std::string name = "slod-stress", role = "client", text = order;
     const std::array<char*, 4> arguments{name.data(), role.data(), text.data(), nullptr};
     const int error =
-        posix_spawn(&process_, "/proc/self/exe", &streams, &attributes, arguments.data(), environ);
+        posix_spawn(&process_, program.c_str(), &streams, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&streams);
     close(input[0]);

@@ -59,6 +59,7 @@ public:
           commander_(connection_.participant()), answers_(connection_.participant()),
           storm_({.prefix = order.run + std::to_string(order.index) + "-",
 
+                  .regions = order.regions,
                   .extent = order.extent,
                   .seed = order.seed}),
           rough_(connection_.participant(), order)
@@ -83,7 +84,7 @@ public:
             }
         constexpr int most = 1024;
         answers_.take_each(most, [this](const wire::CommandReply& reply, const dds_sample_info_t& info) {
-            if (info.valid_data)
+            if (info.valid_data && wire::uuid_of(reply.session) == order_.session)
                 on_answer(reply);
         });
         connection_.poll();
@@ -160,7 +161,7 @@ void CommandingClient::act()
 
 void CommandingClient::send(const Draft& draft)
 {
-    const std::uint64_t number = commander_.send(request_of(draft));
+    const std::uint64_t number = commander_.send(request_of(draft), order_.session);
     sent_[number] = Clock::now();
     book_.on_sent(number, draft, {"applied"});
 }

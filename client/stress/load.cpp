@@ -47,7 +47,7 @@ Reader reader_of(std::uint32_t index, const Options& options)
     return Reader::Steady;
 }
 
-std::vector<Order> orders_of(const Options& options)
+std::vector<Order> orders_of(const Options& options, const wire::Uuid& session)
 {
     std::vector<Order> orders;
     const std::string run = new_run();
@@ -57,12 +57,14 @@ std::vector<Order> orders_of(const Options& options)
             order.reader = reader_of(i, options);
         order.index = i;
         order.run = run;
+        order.session = session;
         order.domain = options.domain;
         order.profile = std::uint32_t(options.profile);
         order.seed = options.seed + i;
         order.region = options.region;
         order.sleep_ms = options.slow_ms;
         order.rates = options.rates;
+        order.regions = options.regions;
         order.extent = options.extent;
         if (options.commands > 0)
             order.commands = (options.commands + options.commanders - 1) / options.commanders;
@@ -82,11 +84,14 @@ void watch_until(Observer& observer, Crew& crew, Clock::duration patience, const
     }
 }
 
-void describe(Report& report, const client::Connection& connection)
+/// The server as it was when the load began; what it said since where it is still there.
+void describe(Report& report, const client::ServerInfo& server, const client::Connection& connection)
 {
-    report.scene = connection.server()->scene_title;
-    report.host = connection.server()->host;
-    report.version = connection.server()->version;
+    report.scene = server.scene_title;
+    report.host = server.host;
+    report.version = server.version;
+    if (!connection.stats() || connection.server()->session != server.session)
+        return;
     report.sample_bytes = connection.server()->max_sample_bytes;
     report.particles = connection.stats()->particles;
     report.clusters = connection.stats()->clusters;
@@ -105,7 +110,8 @@ ServerUse observe_rest(Observer& observer, double seconds, const std::stop_token
 
 Report load(Observer& observer, const Options& options, const ServerUse& rest, const std::stop_token& stop)
 {
-    Crew crew(orders_of(options));
+    const client::ServerInfo server = *observer.connection().server();
+    Crew crew(orders_of(options, server.session));
     watch_until(observer, crew, longest_start, stop, [&] { return crew.unready() == 0; });
     if (const std::size_t unready = crew.unready(); unready > 0 && !stop.stop_requested())
         complain(std::to_string(unready) +
@@ -127,7 +133,7 @@ Report load(Observer& observer, const Options& options, const ServerUse& rest, c
                   .load = use_of(samples),
                   .commands = report_of(crew.commanders())};
     report.readers = report_of(crew.subscribers(), report.load.seconds);
-    describe(report, observer.connection());
+    describe(report, server, observer.connection());
     return report;
 }
 

@@ -80,6 +80,7 @@ void declare_commanders(CLI::App& app, Options& options)
     add_number(app, "--impostors", rates.impostors, highest_rate_hz, "HZ",
                "Others' regions, and others' names under numbers they have used")
         ->group(group);
+    add_count(app, "--regions", options.regions, "Regions of each commander")->group(group);
     add_number(app, "--extent", options.extent, most, "LENGTH",
                "Regions lie within so far of the origin, in the scene's unit")
         ->group(group);

@@ -33,6 +33,7 @@ struct Options {
     std::uint64_t commands = 0; ///< of all commanders together; 0: any number
     std::string region;         ///< whose clusters are read; empty: all
     double slow_ms = 200;       ///< sleep of a slow subscriber after each sample
+    std::uint32_t regions = 1;  ///< of each commander
     double extent = 1;          ///< commanders' regions lie within so far of the origin, in scene lengths
     std::uint64_t seed = 1;
     std::uint32_t domain = 0;

@@ -7,6 +7,7 @@ Json json_of(const Order& order)
     return {{"reader", order.reader ? Json(std::uint8_t(*order.reader)) : Json()},
             {"index", order.index},
             {"run", order.run},
+            {"session", order.session},
             {"domain", order.domain},
             {"profile", order.profile},
             {"seed", order.seed},
@@ -15,6 +16,7 @@ Json json_of(const Order& order)
             {"rates",
              {order.rates.storm, order.rates.malformed, order.rates.duplicates, order.rates.reordered,
               order.rates.impostors}},
+            {"regions", order.regions},
             {"extent", order.extent},
             {"commands", order.commands}};
 }
@@ -24,11 +26,13 @@ Order order_of(const Json& json)
     Order order{.reader = {},
                 .index = json.at("index"),
                 .run = json.at("run"),
+                .session = json.at("session"),
                 .domain = json.at("domain"),
                 .profile = json.at("profile"),
                 .seed = json.at("seed"),
                 .region = json.at("region"),
                 .sleep_ms = json.at("sleep_ms"),
+                .regions = json.at("regions"),
                 .extent = json.at("extent"),
                 .commands = json.at("commands")};
     if (!json.at("reader").is_null())

@@ -74,6 +74,7 @@ void RawClient::write(const wire::Uuid& client, std::uint64_t number, const Draf
     wire::Command command{};
     wire::set(command.client, client);
     command.request = number;
+    wire::set(command.session, session_);
     wire::set(command.kind, draft.kind);
     wire::set(command.region, draft.region);
     command.if_revision = draft.if_revision;

@@ -21,7 +21,10 @@ class RawClient {
 public:
     using Clock = std::chrono::steady_clock;
 
-    explicit RawClient(const wire::Participant& participant) : writer_(participant) {}
+    /// To the server of that session.
+    RawClient(const wire::Participant& participant, const wire::Uuid& session)
+        : session_(session), writer_(participant)
+    {}
 
     const wire::Uuid& client() const { return client_; }
     bool connected() const { return writer_.matched(); }
@@ -56,6 +59,7 @@ private:
     void write(const wire::Uuid& client, std::uint64_t number, const Draft& draft);
 
     wire::Uuid client_ = wire::new_uuid();
+    wire::Uuid session_;
     wire::Writer<wire::Command> writer_;
     std::uint64_t last_number_ = 0;
     std::map<std::uint64_t, Waiting> waiting_; ///< by number

@@ -20,7 +20,7 @@ Draft removal(const std::string& region)
 
 RoughConduct::RoughConduct(const wire::Participant& participant, const Order& order)
     : order_(order), random_(order.seed + 1), box_(order.run + std::to_string(order.index) + "-box"),
-      misuses_(misuses(box_)), next_misuse_(order.index % misuses_.size()), raw_(participant)
+      misuses_(misuses(box_)), next_misuse_(order.index % misuses_.size()), raw_(participant, order.session)
 {}
 
 void RoughConduct::add_region()

@@ -38,6 +38,8 @@ std::string caveat(const Options& options, const client::Connection& connection,
 {
     if (rest.published_frames > 0)
         return "others read cluster states while the server was to be at rest";
+    if (connection.other_servers() > 0)
+        return "there is more than one server on this domain; give each its own";
     if (connection.server()->paused)
         return "the simulation is paused";
     if (options.subscribers > 0)

@@ -50,9 +50,9 @@ Draft Storm::draft_for(const std::string& region)
     const double chance = uniform(0, 1);
     if (chance < 0.5)
         return {.kind = "move_roi", .region = region, .centre = place()};
-    if (chance < 0.7)
+    if (chance < 0.75)
         return {.kind = "resize_roi", .region = region, .half_extent = {size, size / 2, size / 3}};
-    if (chance < 0.9) {
+    if (chance < 0.95) {
         const auto particles = std::uniform_int_distribution(16, 64)(random_);
         return {.kind = "set_roi",
                 .region = region,

@@ -17,7 +17,7 @@ class Storm {
 public:
     struct Options {
         std::string prefix;      ///< of the names of its regions, which nobody else must use
-        std::size_t regions = 4; ///< at most
+        std::size_t regions = 1; ///< at most
         double extent = 1;       ///< regions lie within so far of the origin, in scene lengths
         double lease_s = 60;     ///< of its regions: nobody else may change them
         std::uint64_t seed = 1;

@@ -29,7 +29,8 @@ public:
           arrivals_(connection_.participant()),
           clusters_(connection_.participant(),
                     wire::region_partition(order.region.empty() ? "*" : order.region), repair(order)),
-          run_(order.run), slow_ms_(order.reader == Reader::Slow ? order.sleep_ms : 0)
+          run_(order.run), session_(order.session),
+          slow_ms_(order.reader == Reader::Slow ? order.sleep_ms : 0)
     {
         arrivals_.watch(clusters_);
         if (order.region.empty())
@@ -65,10 +66,10 @@ private:
         constexpr int most = 256;
         const int taken = reader.take_each(slow_ms_ > 0 ? 1 : most, [this](const wire::Clusters& clusters,
                                                                            const dds_sample_info_t& info) {
-            if (!info.valid_data || !connection_.server() ||
-                connection_.server()->session != wire::uuid_of(clusters.session))
+            if (!info.valid_data || wire::uuid_of(clusters.session) != session_)
                 return;
-            tally.on_sample(clusters.region, clusters.serial);
+            if (!std::string_view(clusters.region).starts_with(run_))
+                tally.on_sample(clusters.region, clusters.serial);
             bytes += wire::wire_bytes(clusters);
             latency.add(Milliseconds(std::chrono::nanoseconds(dds_time() - info.source_timestamp)).count());
         });
@@ -81,6 +82,7 @@ private:
     wire::Reader<wire::Clusters> clusters_;
     std::optional<wire::Reader<wire::Clusters>> shared_clusters_; ///< of regions without a partition
     std::string run_; ///< regions of this run come and go, and a gap in their numbers may be no loss
+    wire::Uuid session_;
     double slow_ms_;
 };
 
