@@ -52,10 +52,12 @@ ServerSample Observer::sample() const
                         .published_bytes = stats.wire.published_bytes,
                         .delayed_frames = stats.wire.delayed_frames,
                         .refused_samples = stats.wire.refused_samples,
-                        .encode_ms = stats.wire.encode_ms};
+                        .encode_ms = stats.wire.encode_ms,
+                        .work_ms = stats.work_ms};
     if (server.host == this_host()) {
         const ProcessUse use = use_of_process(server.process);
         sample.processor_s = use.processor_s;
+        sample.network_s = use.network_s;
         sample.resident_mib = use.resident_mib;
     }
     return sample;

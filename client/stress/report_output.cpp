@@ -25,7 +25,9 @@ Json json_of(const ServerUse& use)
             {"refused_samples", use.refused_samples},
             {"longest_standstill_s", use.longest_standstill_s},
             {"encode_ms", use.encode_ms},
+            {"work_ms", use.work_ms},
             {"processor_ms", json_of(use.processor_ms)},
+            {"network_ms", json_of(use.network_ms)},
             {"start_mib", json_of(use.start_mib)},
             {"middle_mib", json_of(use.middle_mib)},
             {"end_mib", json_of(use.end_mib)}};
@@ -86,9 +88,9 @@ std::string number(const std::optional<double>& value)
 
 std::string text_of(const char* phase, const ServerUse& use)
 {
-    return formatted("%-9s %6.1f s  %7.2f Hz  %s ms of processor a frame, %.2f ms encoding  %.2f MB/s\n",
-                     phase, use.seconds, use.frame_rate_hz, number(use.processor_ms).c_str(), use.encode_ms,
-                     use.published_mb_s);
+    return formatted("%-9s %6.1f s  %7.2f Hz  %8.2f MB/s;  of a frame %.2f ms of work, %.2f ms encoding;  ",
+                     phase, use.seconds, use.frame_rate_hz, use.published_mb_s, use.work_ms, use.encode_ms) +
+           number(use.processor_ms) + " ms of processor, " + number(use.network_ms) + " of them DDS's\n";
 }
 
 std::string text_of(const LatencyHistogram& histogram)

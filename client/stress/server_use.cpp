@@ -52,9 +52,13 @@ ServerUse use_of(std::span<const ServerSample> samples)
     }
     if (use.frames > 0) {
         use.encode_ms = mean_encode_ms(samples) * double(use.published_frames) / double(use.frames);
+        if (first.network_s && last.network_s)
+            use.network_ms = (*last.network_s - *first.network_s) * 1e3 / double(use.frames);
         if (first.processor_s && last.processor_s)
             use.processor_ms = (*last.processor_s - *first.processor_s) * 1e3 / double(use.frames);
     }
+    for (const ServerSample& sample : samples)
+        use.work_ms += sample.work_ms / double(samples.size());
     use.start_mib = first.resident_mib;
     use.middle_mib = samples[samples.size() / 2].resident_mib;
     use.end_mib = last.resident_mib;

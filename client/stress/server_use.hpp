@@ -15,7 +15,9 @@ struct ServerSample {
     std::uint64_t delayed_frames = 0;  ///< that waited for the publisher
     std::uint64_t refused_samples = 0;
     double encode_ms = 0;                 ///< of the last published frame
+    double work_ms = 0;                   ///< wall time of a frame without the wait for the next
     std::optional<double> processor_s{};  ///< user and system time so far; none: another host's
+    std::optional<double> network_s{};    ///< of it, DDS's own threads
     std::optional<double> resident_mib{}; ///< memory
 };
 
@@ -28,9 +30,11 @@ struct ServerUse {
     double published_mb_s = 0; ///< 10^6 bytes per second
     std::uint64_t delayed_frames = 0;
     std::uint64_t refused_samples = 0;
-    double longest_standstill_s = 0;                      ///< without a new frame
-    double encode_ms = 0;                                 ///< per frame, of any
-    std::optional<double> processor_ms;                   ///< per frame
+    double longest_standstill_s = 0;    ///< without a new frame
+    double encode_ms = 0;               ///< per frame, of any
+    std::optional<double> processor_ms; ///< per frame
+    std::optional<double> network_ms;   ///< of it, DDS's own threads: acknowledgements, discovery, repair
+    double work_ms = 0;                 ///< wall time of a frame without the wait for the next, mean
     std::optional<double> start_mib, middle_mib, end_mib; ///< resident memory
 };
 

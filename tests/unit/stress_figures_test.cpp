@@ -87,6 +87,7 @@ std::vector<ServerSample> samples(int count, double busy, double encode_ms)
                        .refused_samples = 0,
                        .encode_ms = encode_ms,
                        .processor_s = 100 + busy * i,
+                       .network_s = 0.01 * i,
                        .resident_mib = 50.0 + i});
     }
     return all;
@@ -98,6 +99,7 @@ TEST(ServerUse, IsWhatWasTakenBetweenTheFirstAndTheLastSample)
     EXPECT_EQ(use.frames, 100U);
     EXPECT_DOUBLE_EQ(use.frame_rate_hz, 10);
     EXPECT_NEAR(*use.processor_ms, 20, 1e-9) << "0.2 s of 10 frames; 1e-9: rounding of sums near 100";
+    EXPECT_NEAR(*use.network_ms, 1, 1e-9);
     EXPECT_DOUBLE_EQ(use.encode_ms, 2) << "4 ms for every second frame";
     EXPECT_DOUBLE_EQ(use.published_mb_s, 5);
     EXPECT_EQ(use.delayed_frames, 0U) << "what was before does not count";
@@ -127,6 +129,8 @@ TEST(ProcessUse, IsReadWhateverTheProgramIsCalled)
     const std::string stat = "7 (a) b (c) S 1 2 3 4 5 6 7 8 9 10 250 50 0 0 20";
     EXPECT_EQ(processor_s(stat, 100), 3);
     EXPECT_EQ(resident_mib("900 512 3 4", 4096), 2);
+    EXPECT_TRUE(is_network_thread("recvUC"));
+    EXPECT_FALSE(is_network_thread("slod-server"));
     EXPECT_FALSE(processor_s("", 100));
     EXPECT_FALSE(resident_mib("", 4096));
 }
