@@ -179,7 +179,7 @@ Json json_of(const client::RegionInfo& region)
 void print(const Json& object, bool as_json)
 {
     if (as_json)
-        std::puts(object.dump().c_str());
+        std::puts(object.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
     else
         for (const std::string& line : lines_of(object))
             std::puts(line.c_str());
