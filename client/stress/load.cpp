@@ -116,6 +116,7 @@ Report load(Observer& observer, const Options& options, const ServerUse& rest, c
     if (const std::size_t unready = crew.unready(); unready > 0 && !stop.stop_requested())
         complain(std::to_string(unready) +
                  " clients have not found the server in time; the report has what they saw from then on");
+    watch_until(observer, crew, duration(options.settle_s), stop, [] { return false; });
     observer.take_samples();
     crew.begin(Clock::now());
     watch_until(observer, crew, duration(options.seconds), stop, [&] {

@@ -108,6 +108,8 @@ void declare(CLI::App& app, Options& options)
     add_number(app, "--seconds", options.seconds, longest_run_s, "S", "Time under load");
     add_number(app, "--baseline", options.baseline_s, longest_run_s, "S",
                "Time at rest before, to compare with");
+    add_number(app, "--settle", options.settle_s, longest_run_s, "S",
+               "Time for the clients to find each other before the load counts");
     app.add_flag("--sweep", options.sweep,
                  "Runs with 1, 2, 4 and so on up to --subscribers: where this machine's bandwidth ends");
     app.add_option("--cpus", options.cpus, "Processors that the clients run on, from 0")

@@ -29,6 +29,7 @@ struct Options {
     std::uint32_t commanders = 0;
     double seconds = 10;        ///< of load
     double baseline_s = 5;      ///< of rest before it; 0: none
+    double settle_s = 3;        ///< between, when the clients have joined: they still find each other
     Rates rates{};              ///< of each commander
     std::uint64_t commands = 0; ///< of all commanders together; 0: any number
     std::string region;         ///< whose clusters are read; empty: all

@@ -113,6 +113,8 @@ ExitCode run(const Options& options, const std::stop_token& stop)
         held = held && all_held(judged);
         if (!options.sweep)
             std::fputs((text_of(report) + text_of(judged)).c_str(), stdout);
+        else if (!all_held(judged))
+            std::fputs((sweep_line(report) + text_of(judged)).c_str(), stdout);
     }
     const bool drawn = draw(reports, options);
     if (options.json)

@@ -20,7 +20,7 @@ protected:
     Words stress(Words words) const
     {
         words.insert(words.begin(), SLOD_STRESS);
-        words.insert(words.end(), {"--domain", domain.text(), "--timeout", "30"});
+        words.insert(words.end(), {"--domain", domain.text(), "--timeout", "30", "--settle", "0"});
         return words;
     }
 
