@@ -103,7 +103,7 @@ TEST(StressLimits, WhatMustNeverBeIsJudgedWithoutALimit)
     };
     EXPECT_TRUE(fails([](Report& report) { report.load.delayed_frames = 1; }));
     EXPECT_TRUE(fails([](Report& report) { report.load.refused_samples = 1; }));
-    EXPECT_TRUE(fails([](Report& report) { report.load.longest_standstill_s = 3; }));
+    EXPECT_TRUE(fails([](Report& report) { report.load.longest_standstill_s = 6; }));
     EXPECT_TRUE(fails([](Report& report) { report.missing_workers = 1; }));
     EXPECT_TRUE(fails([](Report& report) { report.commands.valid.lost = 1; }));
     EXPECT_TRUE(fails([](Report& report) { report.commands.rough.contradicted = 1; }));
