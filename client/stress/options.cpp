@@ -151,6 +151,8 @@ std::string problem(const Options& options)
     if (options.subscribers + options.commanders > most_clients)
         return "a machine has room for " + std::to_string(most_clients) +
                " clients in one domain; name fewer";
+    if (options.commands > 0 && options.commanders == 0)
+        return "--commands needs somebody who commands: name --commanders";
     if (options.sweep && (options.commanders > 0 || special > 0))
         return "--sweep is about steady subscribers alone: leave the others out";
     return {};

@@ -122,6 +122,7 @@ TEST_F(Stress, TheExitCodeSaysWhetherLimitsHeld)
     EXPECT_NE(said.find("NOT HELD  latency p99 [ms] at most 0"), std::string::npos) << said;
     EXPECT_EQ(load(with({"--max-round-trip-ms", "1000"})), 1) << "nobody commands, so nothing is measured";
     EXPECT_EQ(load({"--subscribers", "2", "--slow", "3"}), 2);
+    EXPECT_EQ(load({"--commands", "5"}), 2) << "and nobody commands";
     EXPECT_EQ(load({"--subscribers", "many"}), 65);
     EXPECT_EQ(load({"--lunch"}), 2);
 }
