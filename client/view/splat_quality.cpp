@@ -7,7 +7,7 @@ namespace slod::view {
 
 namespace {
 
-constexpr int coarsest_px = 4;
+constexpr int coarsest_px = 8;
 constexpr float least_half_axis = 1.5; ///< of an ellipse in a coarse picture, in its pixels
 
 /// Whether the ellipse's smaller half axis is at least so long.
@@ -21,11 +21,12 @@ bool is_smooth(const EllipseSplat& splat, float half_axis_px)
 
 } // namespace
 
-void coarsen(Splats& splats, double budget_px)
+void coarsen(Splats& splats, const Viewport& viewport, double budget_px)
 {
     double area = 0;
     for (const EllipseSplat& splat : splats.ellipses)
-        area += 4.0 * splat.half_width * splat.half_height;
+        area += std::min<double>(2 * splat.half_width, viewport.width) *
+                std::min<double>(2 * splat.half_height, viewport.height);
     splats.coarse_px = int(std::clamp(std::ceil(std::sqrt(area / budget_px)), 1.0, double(coarsest_px)));
     splats.coarse_count = 0;
     if (splats.coarse_px == 1)

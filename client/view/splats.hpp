@@ -52,9 +52,9 @@ void project(const client::ClusterFrame& frame, const Lens& lens, std::span<cons
              const LevelOfDetail& detail, Splats& splats);
 
 /// Chooses how coarse the smooth ellipses are drawn, so that all boxes together have about `budget_px`
-/// pixels: as fine as that allows, at most four times coarser than the picture. Thin ellipses stay fine.
+/// pixels: as fine as that allows, at most eight times coarser than the picture. Thin ellipses stay fine.
 /// Reorders the ellipses.
-void coarsen(Splats& splats, double budget_px);
+void coarsen(Splats& splats, const Viewport& viewport, double budget_px);
 
 /// Light of points, summed up in a picture of four floats a pixel: red, green, blue and light itself. Rows
 /// run upwards. On a processor this takes a tenth of the time that OpenGL's own points do.

@@ -109,7 +109,8 @@ void declare_look(CLI::App& app, CommandLine& line)
     app.add_option("--exposure", line.exposure, "Brightness; without it, by the light that there is")
         ->check(CLI::Range(1e-6, 1e6))
         ->option_text("FACTOR [1]");
-    app.add_flag("!--no-outlines", line.outlines, "Do not draw the regions of interest");
+    app.add_flag_callback(
+        "--no-outlines", [&line] { line.outlines = false; }, "Do not draw the regions of interest");
     const auto take_size = [&line](const std::string& text) {
         const auto size = pair_of<int>(text, 'x');
         const auto fits = [](int px) { return px >= smallest_px && px <= largest_px; };
@@ -127,8 +128,8 @@ void declare(CLI::App& app, CommandLine& line)
     declare_connection(app, line);
     declare_camera(app, line);
     declare_look(app, line);
-    app.add_flag("--follow", line.follow,
-                 "Add a frustum region that moves with the camera, until the viewer ends");
+    CLI::Option* const follow = app.add_flag(
+        "--follow", line.follow, "Add a frustum region that moves with the camera, until the viewer ends");
     app.add_option("--name", line.client_name,
                    "Name of this viewer, which frustum regions can follow; without it, from host and process")
         ->option_text("NAME");
@@ -137,7 +138,8 @@ void declare(CLI::App& app, CommandLine& line)
         ->option_text("FOLDER [.]");
     CLI::Option* const screenshot =
         app.add_option("--screenshot", line.screenshot, "Write one PNG picture and end; needs no screen")
-            ->option_text("FILE");
+            ->option_text("FILE")
+            ->excludes(follow);
     app.add_option("--frames", line.frames, "With --screenshot: complete frames to wait for")
         ->check(CLI::PositiveNumber)
         ->needs(screenshot)

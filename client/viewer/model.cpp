@@ -38,7 +38,8 @@ bool Model::exchange()
     connection.poll();
     alarms.poll();
     if (const client::ServerInfo* server = connection.server())
-        steering.set_server(server->session);
+        if (steering.set_server(server->session))
+            history.reset();
     if (connection.stats())
         history.add(*connection.stats());
     steering.editor.on_regions(connection.regions());

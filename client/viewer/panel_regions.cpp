@@ -57,23 +57,26 @@ void draw_settings(Model& model, RegionDraft& draft)
     if (found == model.connection.regions().end())
         return;
     const client::RegionInfo& region = found->second;
+    const bool as_drafted = draft.max_cluster_size == region.max_cluster_size &&
+                            draft.max_breadth == region.max_breadth && draft.precedence == region.precedence;
+    if (as_drafted)
+        draft.revision = region.revision;
     ImGui::Text("%s, revision %llu, %llu particles", region.region.c_str(),
                 static_cast<unsigned long long>(region.revision),
                 static_cast<unsigned long long>(region.particles));
     ImGui::InputDouble("max_cluster_size", &draft.max_cluster_size, 0, 0, "%.6g");
     ImGui::InputDouble("max_breadth", &draft.max_breadth, 0, 0, "%.6g");
     ImGui::InputInt("precedence", &draft.precedence);
-    if (ImGui::Button("apply")) {
+    if (ImGui::Button("apply") && !as_drafted) {
         client::CommandRequest request{
-            .kind = "set_roi", .region = region.region, .if_revision = region.revision, .settings{}};
+            .kind = "set_roi", .region = region.region, .if_revision = draft.revision, .settings{}};
         if (draft.max_cluster_size != region.max_cluster_size)
             request.settings.emplace_back("max_cluster_size", text_of(draft.max_cluster_size));
         if (draft.max_breadth != region.max_breadth)
             request.settings.emplace_back("max_breadth", text_of(draft.max_breadth));
         if (draft.precedence != region.precedence)
             request.settings.emplace_back("precedence", std::to_string(draft.precedence));
-        if (!request.settings.empty())
-            model.steering.send(std::move(request));
+        model.steering.send(std::move(request));
     }
     ImGui::SameLine();
     if (ImGui::Button("as it is"))

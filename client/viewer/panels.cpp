@@ -95,6 +95,8 @@ void draw_connection_panel(const Model& model)
             ImGui::Text("%s", server->scene_title.c_str());
             ImGui::Text("slod-server %s on %s, process %u", server->version.c_str(), server->host.c_str(),
                         server->process);
+            if (const auto warning = wire::receive_buffer_warning(server->max_sample_bytes))
+                ImGui::TextWrapped("%s", warning->c_str());
             if (model.connection.other_servers() > 0)
                 ImGui::Text("%zu more servers on this domain", model.connection.other_servers());
         }

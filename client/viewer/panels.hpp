@@ -10,8 +10,8 @@ namespace slod::viewer {
 
 /// What somebody is typing into the panel of regions; not yet asked of the server.
 struct RegionDraft {
-    std::string selected; ///< region whose settings are edited; empty: none
-    std::uint64_t revision = 0;
+    std::string selected;       ///< region whose settings are edited; empty: none
+    std::uint64_t revision = 0; ///< that the draft began with
     double max_cluster_size = 0;
     double max_breadth = 0;
     int precedence = 0;

@@ -14,6 +14,9 @@ namespace {
 using view::EllipseSplat;
 using view::PointSplat;
 
+/// Sums of many faint splats: floats of 16 bits lose what is less than a thousandth of the sum.
+constexpr GLenum light_format = GL_RGBA32F;
+
 /// Describes one member of the vertices in the bound buffer: `count` floats.
 void attribute(GLuint place, GLint count, std::size_t stride, std::size_t offset)
 {
@@ -49,7 +52,8 @@ void describe_ellipses(std::size_t first)
     colour_attribute(4, stride, start + offsetof(EllipseSplat, colour));
 }
 
-/// Whether OpenGL has no graphics card to draw with: Mesa's software drivers.
+} // namespace
+
 bool draws_in_software()
 {
     const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -57,10 +61,8 @@ bool draws_in_software()
     return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
 }
 
-} // namespace
-
-SplatRenderer::SplatRenderer()
-    : in_software_(draws_in_software()), point_program_(shaders::point_vert, shaders::point_frag),
+SplatRenderer::SplatRenderer(bool in_software)
+    : in_software_(in_software), point_program_(shaders::point_vert, shaders::point_frag),
       ellipse_program_(shaders::ellipse_vert, shaders::ellipse_frag),
       tone_program_(shaders::whole_vert, shaders::tone_frag)
 {
@@ -80,9 +82,9 @@ void SplatRenderer::draw(view::Splats& splats, const view::Viewport& viewport, d
 {
     // Pixels of ellipses that can be shaded in a thirtieth of a second, about.
     const double budget_px = in_software_ ? 3e6 : 3e8;
-    view::coarsen(splats, finest ? std::numeric_limits<double>::infinity() : budget_px);
+    view::coarsen(splats, viewport, finest ? std::numeric_limits<double>::infinity() : budget_px);
     make_targets(splats, viewport);
-    // Light is scaled before it is summed up: what is typical becomes 1, amid the range of 16-bit floats.
+    // Light is scaled before it is summed up: what is typical becomes 1.
     const float scale = splats.typical_light > 0 ? float(exposure / splats.typical_light) : 1;
     const std::size_t coarse = splats.coarse_count;
 
@@ -126,8 +128,8 @@ void SplatRenderer::make_targets(const view::Splats& splats, const view::Viewpor
         target.emplace(width, height, format);
     };
     const auto coarse = [&splats](int px) { return (px + splats.coarse_px - 1) / splats.coarse_px; };
-    make(light_, viewport.width, viewport.height, in_software_ ? GL_RGBA32F : GL_RGBA16F);
-    make(coarse_, coarse(viewport.width), coarse(viewport.height), GL_RGBA16F);
+    make(light_, viewport.width, viewport.height, light_format);
+    make(coarse_, coarse(viewport.width), coarse(viewport.height), light_format);
     glBindTexture(GL_TEXTURE_2D, coarse_->texture());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

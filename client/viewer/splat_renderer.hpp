@@ -7,10 +7,15 @@
 
 namespace slod::viewer {
 
+/// Whether OpenGL has no graphics card to draw with: Mesa's software drivers.
+bool draws_in_software();
+
 /// Draws splats as light that adds up, and then what a screen can show of it.
 class SplatRenderer {
 public:
-    SplatRenderer();
+    /// `in_software`: this processor draws. It shades pixels slowly and sets up points more slowly still, so
+    /// points are summed up without OpenGL, and large ellipses get coarse sooner.
+    explicit SplatRenderer(bool in_software = draws_in_software());
 
     /// Fills the framebuffer `target`, of the viewport's size. `exposure` is the brightness of what is
     /// typically bright; 1 is sensible. Reorders the splats.
@@ -24,7 +29,7 @@ private:
     void add_points(const view::Splats& splats, const view::Viewport& viewport, float exposure);
     void add_ellipses(std::size_t first, std::size_t count, float width, float height, float exposure);
 
-    bool in_software_; ///< this processor draws: it shades pixels slowly and sets up points more slowly still
+    bool in_software_;
     Program point_program_, ellipse_program_, tone_program_;
     Buffer point_buffer_, ellipse_buffer_;
     VertexArray points_, ellipses_, whole_;

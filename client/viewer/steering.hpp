@@ -20,10 +20,11 @@ public:
     /// `participant` must outlive it; `name` is what frustum regions follow. Throws wire::DdsError.
     Steering(const wire::Participant& participant, std::string name);
 
-    /// The server that is meant from here on; forgets what was asked of another one.
-    void set_server(const wire::Uuid& session);
+    /// The server that is meant from here on. True when it is another one: what was asked of the last is
+    /// forgotten.
+    bool set_server(const wire::Uuid& session);
 
-    /// Sends a command as soon as it may be sent.
+    /// Sends a command as soon as it may be sent; without a server, says so in the notice.
     void send(client::CommandRequest request);
 
     /// Adds a frustum region that follows the view, or removes it again.
@@ -43,9 +44,11 @@ private:
     void take_answers();
     void write_view(const client::ClientView& view, Clock::time_point now);
 
-    client::Commander commander_;
-    client::ViewWriter view_writer_;
+    const wire::Participant& participant_;
+    std::string name_;
     wire::Uuid session_{};
+    std::optional<client::Commander> commander_;    ///< of the present server: one that is gone never answers
+    std::optional<client::ViewWriter> view_writer_; ///< likewise
     std::deque<client::CommandRequest> queue_;
     std::map<std::uint64_t, std::string> asked_; ///< what a command in flight asks for, by number
     std::string notice_;

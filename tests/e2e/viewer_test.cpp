@@ -155,7 +155,7 @@ TEST_F(Viewer, SaysThatTheServerIsStalled)
     Child running(source("1"));
     ASSERT_TRUE(eventually([&] { return control({"status"}) == 0 && answer.at("contact") == "stalled"; }))
         << running.errors();
-    Child waiting(viewer({"--screenshot", picture.string(), "--frames", "1000000", "--timeout", "2"}));
+    Child waiting(viewer({"--screenshot", picture.string(), "--frames", "1000000", "--timeout", "5"}));
     EXPECT_EQ(waiting.wait(), int(ExitCode::TimedOut));
     EXPECT_TRUE(contains(waiting.errors(), "has completed no frame for")) << waiting.errors();
 }

@@ -133,9 +133,9 @@ TEST(ViewerSplats, ManyLargeEllipsesAreDrawnCoarselyAndThinOnesNot)
     clusters.push_back({{}, {400, 0, 0, 0, 0, 0}});
     Splats splats = splats_of(clusters, front());
     ASSERT_EQ(splats.ellipses.size(), 101U);
-    coarsen(splats, 1e9);
+    coarsen(splats, picture, 1e9);
     EXPECT_EQ(splats.coarse_count, 0U);
-    coarsen(splats, 1e5);
+    coarsen(splats, picture, 1e5);
     EXPECT_EQ(splats.coarse_count, 100U);
     EXPECT_GT(splats.coarse_px, 1);
     EXPECT_LT(splats.ellipses.back().half_height, 2);

@@ -12,6 +12,7 @@ void main()
     const float white = 3.0;     // light that takes all of the screen's brightness
     vec2 coarse_place = vec2(gl_FragCoord.x, gl_FragCoord.y + coarse_size.y - height);
     vec4 sum = texelFetch(light, ivec2(gl_FragCoord.xy), 0) + texture(coarse_light, coarse_place / coarse_size);
+    sum = min(sum, vec4(1e30)); // what is too bright for floats is infinite
     float brightness = log(1.0 + contrast * sum.a) / log(1.0 + contrast * white);
     shown = vec4(sum.rgb / max(sum.a, 1e-6) * min(brightness, 1.0), 1.0);
 }
