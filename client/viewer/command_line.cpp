@@ -144,6 +144,10 @@ void declare(CLI::App& app, CommandLine& line)
         ->check(CLI::PositiveNumber)
         ->needs(screenshot)
         ->option_text("N [1]");
+    app.add_option("--from-frame", line.from_frame,
+                   "With --screenshot: wait for the server's frame of this number")
+        ->needs(screenshot)
+        ->option_text("N [0]");
     app.set_version_flag("--version", "slod-viewer " + std::string(version()));
 }
 

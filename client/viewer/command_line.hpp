@@ -35,6 +35,7 @@ struct CommandLine {
     std::filesystem::path output_folder = "."; ///< of pictures that are asked for in the window
     std::filesystem::path screenshot;          ///< empty: open a window
     std::uint64_t frames = 1;                  ///< complete ones to wait for before the screenshot
+    std::uint64_t from_frame = 0; ///< number of the first of the server's frames that may be drawn
 };
 
 /// Reads the command line. When it is wrong, or asks for --help or --version alone, has already printed what

@@ -79,12 +79,14 @@ ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
     std::fprintf(stderr, "slod-viewer: hears slod-server %s on %s, process %u\n", server.version.c_str(),
                  server.host.c_str(), server.process);
     const auto complete = [&] {
-        return connection.complete_frames() >= line.frames && connection.knows_all_regions();
+        return connection.complete_frames() >= line.frames && connection.frame()->frame >= line.from_frame &&
+               connection.knows_all_regions();
     };
     if (!wait_until(connection, stop, end, [&] { return complete() || !present(); }) || !complete()) {
         const client::Status status = connection.status();
-        complain(std::to_string(connection.complete_frames()) + " of " + std::to_string(line.frames) +
-                 " frames came in time" + (status.reason.empty() ? "" : ": " + status.reason) +
+        complain(std::to_string(connection.complete_frames()) +
+                 " frames came in time, and not those asked for" +
+                 (status.reason.empty() ? "" : ": " + status.reason) +
                  (present() ? "; wait longer with --timeout" : "; start it again"));
         return status.contact == client::Contact::NoServer ? ExitCode::NoServer : ExitCode::TimedOut;
     }

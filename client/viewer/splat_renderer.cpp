@@ -81,7 +81,7 @@ void SplatRenderer::draw(view::Splats& splats, const view::Viewport& viewport, d
                          GLuint target)
 {
     // Pixels of ellipses that can be shaded in a thirtieth of a second, about.
-    const double budget_px = in_software_ ? 3e6 : 3e8;
+    const double budget_px = in_software_ ? 1.5e6 : 1.5e8;
     view::coarsen(splats, viewport, finest ? std::numeric_limits<double>::infinity() : budget_px);
     make_targets(splats, viewport);
     // Light is scaled before it is summed up: what is typical becomes 1.
@@ -139,6 +139,10 @@ void SplatRenderer::make_targets(const view::Splats& splats, const view::Viewpor
 /// Replaces all light by that of the points.
 void SplatRenderer::set_points(const view::Splats& splats, const view::Viewport& viewport, float exposure)
 {
+    if (splats.points.empty()) {
+        glClear(GL_COLOR_BUFFER_BIT);
+        return;
+    }
     glBindTexture(GL_TEXTURE_2D, light_->texture());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport.width, viewport.height, GL_RGBA, GL_FLOAT,
                     point_sum_.sum(splats.points, viewport, exposure).data());

@@ -93,7 +93,7 @@ protected:
 TEST_F(Viewer, DrawsTheFountainWithoutAScreen)
 {
     Child running({SLOD_SERVER, SLOD_SCENES "/fountain.toml", "--domain", domain.text()});
-    Child drawing(headless({"--size", "640x400", "--frames", "60", "--camera",
+    Child drawing(headless({"--size", "640x400", "--from-frame", "60", "--camera",
                             "look_at=0,0,4 distance=14 azimuth=-90 elevation=10"}));
     ASSERT_EQ(drawing.wait(), 0) << drawing.errors();
     const Picture drawn(picture);
