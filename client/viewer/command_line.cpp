@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
+#include <stdexcept>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -74,21 +76,16 @@ void declare_camera(CLI::App& app, CommandLine& line)
             throw CLI::ValidationError("--camera", *wrong);
         line.camera = std::get<view::Camera>(read);
     };
-    CLI::Option* const camera = app.add_option_function<std::string>(
-        "--camera", take,
-        "Where to look from, such as \"" + view::to_text(view::Camera{}) +
-            "\"; lengths are the scene's, angles degrees. What is left out is as here. "
-            "Without it the camera is set once, by the first frame");
-    camera->option_text("TEXT");
-    app.add_option_function<std::string>(
-           "--camera-file",
-           [&line, camera](const std::string& path) {
-               line.camera_file = path;
-               if (camera->count() == 0)
-                   line.camera = load_camera(path);
-           },
-           "Where Ctrl-S saves the camera and Ctrl-L loads it; read at the start if it is there and there is "
-           "no --camera")
+    app.add_option_function<std::string>("--camera", take,
+                                         "Where to look from, such as \"" + view::to_text(view::Camera{}) +
+                                             "\"; lengths are the scene's, angles degrees. What is left out "
+                                             "is as here. Without it, and without a "
+                                             "camera file, the first frame sets the camera, once")
+        ->option_text("TEXT");
+    app.add_option(
+           "--camera-file", line.camera_file,
+           "Where Ctrl-S saves the camera and Ctrl-L loads it; without --camera it is read at the start, "
+           "if it is there")
         ->option_text("FILE [slod-camera.txt]");
 }
 
@@ -130,8 +127,9 @@ void declare(CLI::App& app, CommandLine& line)
     declare_look(app, line);
     CLI::Option* const follow = app.add_flag(
         "--follow", line.follow, "Add a frustum region that moves with the camera, until the viewer ends");
-    app.add_option("--name", line.client_name,
-                   "Name of this viewer, which frustum regions can follow; without it, from host and process")
+    app.add_option(
+           "--name", line.client_name,
+           "Name of this viewer, which frustum regions can follow; without it, viewer and its process")
         ->option_text("NAME");
     app.add_option("--output-dir", line.output_folder, "Folder of the pictures that key e writes")
         ->check(CLI::ExistingDirectory)
@@ -182,6 +180,13 @@ std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* con
     } catch (const CLI::ParseError& error) {
         app.exit(error);
         return code_of(error);
+    }
+    try {
+        if (!line.camera)
+            line.camera = load_camera(line.camera_file);
+    } catch (const std::runtime_error& error) {
+        std::fprintf(stderr, "slod-viewer: %s\n", error.what());
+        return ExitCode::InvalidArgument;
     }
     return line;
 }

@@ -30,7 +30,7 @@ struct CommandLine {
     view::Viewport size;
 
     bool follow = false;       ///< add a frustum region that moves with the camera
-    std::string client_name{}; ///< of the view; empty: made from host and process
+    std::string client_name{}; ///< of the view; empty: viewer and its process
 
     std::filesystem::path output_folder = "."; ///< of pictures that are asked for in the window
     std::filesystem::path screenshot;          ///< empty: open a window

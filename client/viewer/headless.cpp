@@ -43,6 +43,14 @@ std::vector<OutlinedRegion> outlines(const client::Connection::Regions& regions,
     return made;
 }
 
+/// What helps when frames do not come.
+std::string remedy(const client::Connection& connection)
+{
+    if (connection.status().contact == client::Contact::NoServer)
+        return "start it again";
+    return connection.server()->paused ? "let it go on with slodctl resume" : "wait longer with --timeout";
+}
+
 void draw(const CommandLine& line, const client::Connection& connection)
 {
     const client::ClusterFrame& frame = *connection.frame();
@@ -86,8 +94,7 @@ ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
         const client::Status status = connection.status();
         complain(std::to_string(connection.complete_frames()) +
                  " frames came in time, and not those asked for" +
-                 (status.reason.empty() ? "" : ": " + status.reason) +
-                 (present() ? "; wait longer with --timeout" : "; start it again"));
+                 (status.reason.empty() ? "" : ": " + status.reason) + "; " + remedy(connection));
         return status.contact == client::Contact::NoServer ? ExitCode::NoServer : ExitCode::TimedOut;
     }
     if (!line.region.empty() && !connection.regions().contains(line.region)) {
