@@ -36,8 +36,9 @@ ExitCode echo(const CommandLine& line, const std::stop_token& stop)
         });
         connection.poll();
         if (printed == 0 && client::Clock::now() >= end) {
-            complain("no sample came in time; is there a region of that name, and does the scene write it? Wait "
-                     "longer with --timeout");
+            complain(
+                "no sample came in time: is there such a region, and does this server write the topic? Wait "
+                "longer with --timeout");
             return ExitCode::TimedOut;
         }
         if (connection.status().contact == client::Contact::NoServer) {

@@ -141,11 +141,12 @@ TEST_F(Server, DrawsAPicture)
 
 TEST_F(Server, AnOutputThatCannotBeWrittenCostsNoOther)
 {
-    const std::filesystem::path picture = folder_ / "picture.png";
-    const ServerRun run = run_server({scene_, "--no-dds", "--free-run", "--frames", "5", "--report",
-                                      "/dev/full", "--picture", picture, "--output-dir", folder_});
+    const std::filesystem::path picture = folder_ / "picture.png", report = folder_ / "report.json";
+    std::filesystem::create_symlink("/dev/full", report); // by way of a link, lest the device be replaced
+    const ServerRun run = run_server({scene_, "--no-dds", "--free-run", "--frames", "5", "--report", report,
+                                      "--picture", picture, "--output-dir", folder_});
     EXPECT_EQ(run.exit_code, 1) << run.output;
-    EXPECT_TRUE(contains(run.output, "cannot write /dev/full")) << run.output;
+    EXPECT_TRUE(contains(run.output, "cannot write " + report.string())) << run.output;
     EXPECT_GT(std::filesystem::file_size(picture), 0U);
     EXPECT_EQ(run_server({"--replay", log_, "--no-dds", "--free-run"}).exit_code, 0);
 }
