@@ -47,7 +47,7 @@ public:
         std::uint64_t frames_delayed = 0;  ///< whose hand-over waited for 10 ms or more
         std::uint64_t samples_refused = 0; ///< by DDS, of any topic
         std::uint64_t bytes = 0;           ///< of all samples, once per sample whatever the number of readers
-        double encode_ms = 0;              ///< wall time to encode and write the last frame
+        double encode_ms = 0;              ///< processor time to encode and write the last frame
     };
 
     /// Joins the domain and announces the session. Throws std::runtime_error with a remedy when it cannot.
