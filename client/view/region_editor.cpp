@@ -1,5 +1,6 @@
 #include "view/region_editor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -44,6 +45,13 @@ std::optional<client::CommandRequest> command_between(const std::string& region,
 
 void RegionEditor::on_regions(const client::Connection::Regions& regions)
 {
+    const bool unchanged =
+        std::equal(regions.begin(), regions.end(), regions_.begin(), regions_.end(),
+                   [](const auto& left, const auto& right) {
+                       return left.first == right.first && left.second.revision == right.second.revision;
+                   });
+    if (unchanged)
+        return;
     regions_ = regions;
     std::erase_if(changes_, [this](const auto& change) { return !regions_.contains(change.first); });
     if (drag_ && !regions_.contains(drag_->grip.region))

@@ -40,11 +40,11 @@ OffscreenContext::OffscreenContext()
     }
 }
 
+/// The display stays as it is: it is the process's, and Mesa loses memory with every driver that it unloads.
 OffscreenContext::~OffscreenContext()
 {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
-    eglTerminate(display_);
 }
 
 } // namespace slod::viewer

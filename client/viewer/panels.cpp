@@ -55,6 +55,18 @@ void plot(const view::History& history, const char* label, const std::string& se
     ImGui::PopID();
 }
 
+/// Those that the scene calls for, in a part of the panel that scrolls.
+void plot_phases(const view::History& history)
+{
+    ImGui::BeginChild("phases", ImVec2(268, 116));
+    for (const std::string& phase : history.phases()) {
+        const std::vector<float>& values = history.series().at(phase);
+        if (std::any_of(values.begin(), values.end(), [](float ms) { return ms > 0; }))
+            plot(history, phase.c_str(), phase, "ms");
+    }
+    ImGui::EndChild();
+}
+
 /// Where the panels of a side begin.
 void place(float from_left, float from_top)
 {
@@ -126,8 +138,7 @@ void draw_performance_panel(const Model& model)
         plot(model.history, "real time factor", "real_time_factor", "");
         plot(model.history, "work", "work_ms", "ms");
         if (ImGui::CollapsingHeader("milliseconds by phase"))
-            for (const std::string& phase : model.history.phases())
-                plot(model.history, phase.c_str(), phase, "ms");
+            plot_phases(model.history);
         ImGui::Text("viewer    %.1f pictures/s", double(ImGui::GetIO().Framerate));
     }
     ImGui::End();

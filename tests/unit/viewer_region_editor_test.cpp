@@ -124,7 +124,7 @@ TEST_F(ViewerEditor, ABoxIsNeverTurnedInsideOut)
 
 TEST_F(ViewerEditor, AHandleOfASphereChangesItsRadius)
 {
-    client::RegionInfo sphere = box(1);
+    client::RegionInfo sphere = box(2);
     sphere.shape = "sphere";
     sphere.radius = 2;
     editor.on_regions({{"core", sphere}});
@@ -230,7 +230,7 @@ TEST_F(ViewerEditor, ARegionThatIsRemovedWhileItIsDraggedIsLetGo)
 
 TEST_F(ViewerEditor, RegionsWithoutPlaceAndSizeHaveNoHandles)
 {
-    client::RegionInfo all = box(1);
+    client::RegionInfo all = box(2);
     all.shape = "everywhere";
     editor.on_regions({{"core", all}});
     EXPECT_FALSE(editor.grip_at(front(), {400, 300}));
