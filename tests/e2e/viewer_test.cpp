@@ -197,6 +197,13 @@ protected:
         ASSERT_EQ(control({"roi", "add", "core", "--centre", "0,0,0", "--half-extent", "4"}), 0);
     }
 
+    /// A screen that is killed leaves its socket behind.
+    void TearDown() override
+    {
+        screen.signal(SIGTERM);
+        screen.wait();
+    }
+
     /// The picture that key e writes; pressed again until one shows the scene, and `accept` takes it.
     template <class Accept>
     Picture picture_when(const Accept& accept)
@@ -248,7 +255,7 @@ protected:
                 "1",         "mousemove",       text(int(to.x)),   text(int(to.y))};
     }
 
-    Child screen{{XVFB, "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"}};
+    Child screen{{XVFB, "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp", "-noreset"}};
     Child running{server()};
     const view::Camera camera{.look_at = {0, 0, 0}, .distance = 60, .azimuth_deg = -90, .elevation_deg = 0};
     const view::Lens lens{camera, {.width = 800, .height = 600}};
