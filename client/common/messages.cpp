@@ -35,6 +35,7 @@ void assign(ServerInfo& to, const wire::ServerState& from)
     to.time = from.time;
     to.idle_ms = from.idle_ms;
     to.paused = from.paused;
+    to.frame_rate_target_hz = from.frame_rate_target_hz;
     to.frame_rate_hz = from.frame_rate_hz;
     to.real_time_factor = from.real_time_factor;
     to.particles = from.particles;

@@ -18,7 +18,7 @@ struct ServerInfo {
     double time = 0;
     double idle_ms = 0;
     bool paused = false;
-    double frame_rate_hz = 0;
+    double frame_rate_target_hz = 0, frame_rate_hz = 0;
     double real_time_factor = 0;
     std::uint64_t particles = 0;
     std::uint32_t regions = 0;

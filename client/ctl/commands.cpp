@@ -48,7 +48,8 @@ void declare_echo(CLI::App& app, CommandLine& line)
 {
     declare_topic(app, line);
     CLI::Option* const count =
-        app.add_option("--count", line.count, "End after so many samples; without it, on Ctrl-C")
+        app.add_option("--count", line.count,
+                       "End after so many samples, which must come within --timeout; without it, on Ctrl-C")
             ->check(CLI::PositiveNumber)
             ->option_text("N");
     app.add_flag_callback(

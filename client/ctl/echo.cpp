@@ -35,7 +35,7 @@ ExitCode echo(const CommandLine& line, const std::stop_token& stop)
             ++printed;
         });
         connection.poll();
-        if (printed == 0 && client::Clock::now() >= end) {
+        if (line.count > 0 && !enough() && client::Clock::now() >= end) {
             complain(
                 "no sample came in time: is there such a region, and does this server write the topic? Wait "
                 "longer with --timeout");

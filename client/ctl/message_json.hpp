@@ -5,7 +5,8 @@
 
 namespace slod::ctl {
 
-/// A message as it came, its fields named and ordered as in slod.idl.
+/// A message's fields, named as in slod.idl; of the server's state and statistics ordered as slodctl status
+/// and stats have them, without what was not measured.
 Json json_of(const wire::Clusters& message);
 Json json_of(const wire::Overview& message);
 Json json_of(const wire::FrameManifest& message);

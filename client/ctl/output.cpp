@@ -99,6 +99,7 @@ Json json_of(const client::ServerInfo& server)
         {"time", server.time},
         {"paused", server.paused},
         {"idle_ms", server.idle_ms},
+        {"frame_rate_target_hz", server.frame_rate_target_hz},
         {"frame_rate_hz", server.frame_rate_hz},
         {"real_time_factor", server.real_time_factor},
         {"particles", server.particles},
@@ -110,6 +111,7 @@ Json json_of(const client::ServerInfo& server)
         {"threads", server.threads},
         {"host", server.host},
         {"process", server.process},
+        {"started_ns", server.started_ns},
         {"heartbeat", server.heartbeat},
         {"max_sample_bytes", server.max_sample_bytes},
         {"topics", server.topics}};

@@ -90,7 +90,7 @@ ExitCode measure_topic(const CommandLine& line, const std::stop_token& stop)
     }
     if (meter.report(client::Clock::now()).received > 0)
         return ExitCode::Success;
-    complain("no sample came in that time");
+    complain("no sample came in that time; name a region that there is, or measure longer with --count");
     return ExitCode::TimedOut;
 }
 

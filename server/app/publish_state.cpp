@@ -33,6 +33,7 @@ StateEncoder::StateEncoder(const wire::Uuid& session, const Publisher::Session& 
     message_.units = {
         .length_m = facts.units.length_m, .mass_kg = facts.units.mass_kg, .time_s = facts.units.time_s};
     message_.time_step = facts.time_step;
+    message_.frame_rate_target_hz = facts.frame_rate_target_hz;
     wire::set(message_.scene_title, facts.scene_title);
     wire::set(message_.version, facts.version);
     wire::set(message_.isa, facts.isa);

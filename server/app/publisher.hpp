@@ -32,7 +32,8 @@ public:
     struct Session {
         std::string scene_title;
         Units units;
-        double time_step; ///< scene time per frame
+        double time_step;            ///< scene time per frame
+        double frame_rate_target_hz; ///< that the loop paces itself to; 0: as fast as it goes
         std::uint64_t particles;
         int threads;
         std::string isa;

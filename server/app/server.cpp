@@ -47,13 +47,15 @@ Server::Server(Job& job, bool free_run, Listeners listeners)
     const ParticleSet initial = std::move(job.initial.particles);
     team_.run([&] { simulation_.emplace(scene.simulation, initial, options(scene.server)); });
     if (scene.wire.enabled)
-        publisher_.emplace(scene.wire, Publisher::Session{.scene_title = scene.title,
-                                                          .units = scene.simulation.units,
-                                                          .time_step = scene.simulation.time.step,
-                                                          .particles = initial.size(),
-                                                          .threads = threads_,
-                                                          .isa = std::string(simulation_->isa()),
-                                                          .version = std::string(version())});
+        publisher_.emplace(scene.wire,
+                           Publisher::Session{.scene_title = scene.title,
+                                              .units = scene.simulation.units,
+                                              .time_step = scene.simulation.time.step,
+                                              .frame_rate_target_hz = free_run_ ? 0 : frame_rate_hz_,
+                                              .particles = initial.size(),
+                                              .threads = threads_,
+                                              .isa = std::string(simulation_->isa()),
+                                              .version = std::string(version())});
     steering_.emplace(*simulation_, publisher_ ? &*publisher_ : nullptr,
                       Steering::Options{.wire = scene.wire,
                                         .replay = job.commands,
