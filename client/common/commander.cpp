@@ -137,6 +137,12 @@ void Commander::poll()
         }
 }
 
+void Commander::forget()
+{
+    unanswered_.clear();
+    answers_.clear();
+}
+
 void Commander::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout)
 {
     constexpr std::chrono::milliseconds until_connected{10}; // DDS tells of matches by no condition here

@@ -79,6 +79,9 @@ public:
     /// All answers that came, by number; they are then forgotten.
     std::map<std::uint64_t, CommandAnswer> take_answers() { return std::exchange(answers_, {}); }
 
+    /// Forgets what was sent and what came: nothing of it is sent again.
+    void forget();
+
     std::size_t waiting() const { return unanswered_.size(); }
 
     /// Requests sent again so far.

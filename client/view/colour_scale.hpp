@@ -66,7 +66,7 @@ private:
     std::unordered_map<std::uint64_t, double> since_, previous_; ///< scene time by formation
 };
 
-/// Colours the clusters of frames. Steady traffic allocates nothing.
+/// Colours the clusters of frames. Keeps its memory from frame to frame.
 class Colouring {
 public:
     /// A colour for each cluster of the frame, in order.

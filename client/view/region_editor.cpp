@@ -14,11 +14,16 @@ std::array<double, 3> array_of(const Vector& from)
     return {from.x(), from.y(), from.z()};
 }
 
+std::string text_of(double number)
+{
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.17g", number);
+    return text.data();
+}
+
 std::string text_of(const Vector& vector)
 {
-    std::array<char, 96> text;
-    std::snprintf(text.data(), text.size(), "[%.17g, %.17g, %.17g]", vector.x(), vector.y(), vector.z());
-    return text.data();
+    return "[" + text_of(vector.x()) + ", " + text_of(vector.y()) + ", " + text_of(vector.z()) + "]";
 }
 
 } // namespace
@@ -28,11 +33,13 @@ std::optional<client::CommandRequest> command_between(const std::string& region,
 {
     const bool moved = from.centre != to.centre;
     const bool resized = to.sphere ? from.radius != to.radius : from.half_extent != to.half_extent;
-    if (moved && resized) // in one command, or a frame could see one without the other
+    if (moved && resized) { // in one command, or a frame could see one without the other
+        const std::pair<std::string, std::string> size =
+            to.sphere ? std::pair("radius", text_of(to.radius))
+                      : std::pair("half_extent", text_of(to.half_extent));
         return client::CommandRequest{
-            .kind = "set_roi",
-            .region = region,
-            .settings = {{"centre", text_of(to.centre)}, {"half_extent", text_of(to.half_extent)}}};
+            .kind = "set_roi", .region = region, .settings = {{"centre", text_of(to.centre)}, size}};
+    }
     if (moved)
         return client::CommandRequest{.kind = "move_roi", .region = region, .centre = array_of(to.centre)};
     if (resized && to.sphere)

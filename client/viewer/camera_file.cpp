@@ -11,6 +11,9 @@ std::optional<view::Camera> load_camera(const std::filesystem::path& path)
     if (!std::filesystem::exists(path))
         return {};
     std::ifstream file(path);
+    if (!file)
+        throw std::runtime_error("cannot read " + path.string() +
+                                 "; name a file that you may read with --camera-file");
     const std::string text(std::istreambuf_iterator<char>(file), {});
     const auto read = view::camera_of(text);
     if (const auto* wrong = std::get_if<std::string>(&read))

@@ -108,6 +108,11 @@ void declare_look(CLI::App& app, CommandLine& line)
         ->option_text("FACTOR [1]");
     app.add_flag_callback(
         "--no-outlines", [&line] { line.outlines = false; }, "Do not draw the regions of interest");
+    app.callback([&line] {
+        if (line.colours.logarithmic && !line.colours.automatic && !(line.colours.low > 0))
+            throw CLI::ValidationError("--range", "a logarithmic scale begins above 0; leave out --log or "
+                                                  "write a LOW above 0");
+    });
     const auto take_size = [&line](const std::string& text) {
         const auto size = pair_of<int>(text, 'x');
         const auto fits = [](int px) { return px >= smallest_px && px <= largest_px; };

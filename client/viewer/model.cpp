@@ -30,24 +30,25 @@ Model::Model(const CommandLine& line)
                                                                   .detail{},
                                                                   .exposure = line.exposure},
       viewport(line.size), camera_file(line.camera_file), output_folder(line.output_folder),
-      show_outlines(line.outlines), fit_wanted_(!line.camera), follow_wanted_(line.follow)
-{}
+      show_outlines(line.outlines), fit_wanted_(!line.camera)
+{
+    steering.follow(line.follow);
+}
 
 bool Model::exchange()
 {
     connection.poll();
     alarms.poll();
-    if (const client::ServerInfo* server = connection.server())
-        if (steering.set_server(server->session))
-            history.reset();
+    if (connection.status().contact == client::Contact::NoServer)
+        steering.lose_server();
+    else if (steering.set_server(connection.server()->session))
+        history.reset();
     if (connection.stats())
         history.add(*connection.stats());
     steering.editor.on_regions(connection.regions());
     if (connection.frame() && connection.frame()->nodes() > 0 && std::exchange(fit_wanted_, false))
         fit_camera();
-    if (connection.frame() && std::exchange(follow_wanted_, false))
-        steering.follow(true, client_view());
-    steering.poll(client_view(), Steering::Clock::now());
+    steering.poll(connection.regions(), client_view(), Steering::Clock::now());
     return std::exchange(shown_frames_, connection.complete_frames()) != connection.complete_frames();
 }
 

@@ -59,7 +59,6 @@ public:
 private:
     std::optional<client::ClusterFrame> frozen_;
     bool fit_wanted_; ///< by the first frame, once
-    bool follow_wanted_;
     std::uint64_t shown_frames_ = 0;
 };
 

@@ -54,6 +54,8 @@ void draw_range(view::ColourScale& scale, const view::Range& range)
     ImGui::InputDouble("low", &scale.low, 0, 0, "%.6g");
     ImGui::SetNextItemWidth(legend_width);
     ImGui::InputDouble("high", &scale.high, 0, 0, "%.6g");
+    if (!(scale.high > scale.low) || (scale.logarithmic && !(scale.low > 0)))
+        ImGui::TextWrapped("no colours: low must be below high, and above 0 on a logarithmic scale");
 }
 
 } // namespace

@@ -131,6 +131,11 @@ void draw_performance_panel(const Model& model)
         if (const client::ServerStats* stats = model.connection.stats()) {
             ImGui::Text("frame     %llu, time %.4g", static_cast<unsigned long long>(stats->frame),
                         stats->time);
+            if (const client::ServerInfo* server = model.connection.server();
+                server && server->frame_rate_target_hz > 0)
+                ImGui::Text("target    %.4g Hz", server->frame_rate_target_hz);
+            else
+                ImGui::Text("target    as fast as it goes");
             ImGui::Text("particles %llu", static_cast<unsigned long long>(stats->particles));
             ImGui::Text("clusters  %llu", static_cast<unsigned long long>(stats->clusters));
         }
@@ -163,7 +168,7 @@ void draw_steering_panel(Model& model)
             model.freeze(frozen);
         bool follows = model.steering.follows();
         if (ImGui::Checkbox("region follows the camera", &follows))
-            model.steering.follow(follows, model.client_view());
+            model.steering.follow(follows);
         if (ImGui::Button("picture"))
             model.picture_wanted = true;
         ImGui::SameLine();

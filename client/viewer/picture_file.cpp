@@ -62,12 +62,14 @@ void write_png(const Pixels& pixels, const std::filesystem::path& path)
     std::ofstream file(unfinished, std::ios::binary);
     file.write(static_cast<const char*>(bytes.get()), size);
     file.close();
-    if (!file)
-        fail(path, errno);
     std::error_code error;
-    std::filesystem::rename(unfinished, path, error);
-    if (error)
-        fail(path, error.value());
+    if (file)
+        std::filesystem::rename(unfinished, path, error);
+    if (file && !error)
+        return;
+    const int reason = error ? error.value() : errno;
+    std::filesystem::remove(unfinished, error);
+    fail(path, reason);
 }
 
 } // namespace slod::viewer

@@ -1,5 +1,7 @@
 #include "viewer/steering.hpp"
 
+#include <utility>
+
 namespace slod::viewer {
 
 namespace {
@@ -28,6 +30,7 @@ Steering::Steering(const wire::Participant& participant, std::string name)
 
 bool Steering::set_server(const wire::Uuid& session)
 {
+    heard_ = true;
     if (session == session_)
         return false;
     session_ = session;
@@ -35,42 +38,67 @@ bool Steering::set_server(const wire::Uuid& session)
     asked_.clear();
     editor.reset();
     queue_.clear();
-    follows_ = false;
     written_.reset();
     return true;
+}
+
+void Steering::lose_server()
+{
+    if (!std::exchange(heard_, false))
+        return;
+    commander_->forget();
+    asked_.clear();
+    editor.reset();
+    queue_.clear();
 }
 
 void Steering::send(client::CommandRequest request)
 {
     if (std::string wrong = client::problem(request); !wrong.empty())
         notice_ = std::move(wrong);
-    else if (!commander_)
+    else if (!heard_)
         notice_ = "there is no server to tell";
     else
         queue_.push_back(std::move(request));
 }
 
-void Steering::follow(bool wanted, const client::ClientView& view)
+void Steering::follow(bool wanted)
 {
-    const std::string region = name_of_region(name_);
-    if (wanted && !follows_)
+    follow_wanted_ = wanted;
+    asked_to_follow_ = {};
+}
+
+/// Adds the region that follows the view, or removes it, until the server has it so. One of its name that is
+/// not ours stays as it is.
+void Steering::keep_following(const client::Connection::Regions& regions, const client::ClientView& view,
+                              Clock::time_point now)
+{
+    constexpr std::chrono::seconds patience{2};
+    const std::string name = name_of_region(name_);
+    const auto known = regions.find(name);
+    const bool there = known != regions.end() && known->second.owner == commander_->client();
+    if (there == follow_wanted_ || now - asked_to_follow_ < patience)
+        return;
+    asked_to_follow_ = now;
+    if (follow_wanted_)
         send({.kind = "add_roi",
-              .region = region,
+              .region = name,
               .lease_s = view_lease_s,
               .centre = view.eye,
               .settings = {{"shape", "frustum"}, {"follows", name_}}});
-    if (!wanted && follows_)
-        send({.kind = "remove_roi", .region = region});
-    follows_ = wanted;
+    else
+        send({.kind = "remove_roi", .region = name});
     written_.reset(); // so that the region gets the view at once
 }
 
-void Steering::poll(const client::ClientView& view, Clock::time_point now)
+void Steering::poll(const client::Connection::Regions& regions, const client::ClientView& view,
+                    Clock::time_point now)
 {
-    if (!commander_)
+    if (!heard_)
         return;
     commander_->poll();
     take_answers();
+    keep_following(regions, view, now);
     while (!queue_.empty() && commander_->waiting() < client::Commander::max_waiting) {
         asked_[commander_->send(queue_.front(), session_)] =
             queue_.front().kind + " " + queue_.front().region;
@@ -90,6 +118,9 @@ void Steering::take_answers()
     for (const auto& [number, answer] : commander_->take_answers()) {
         const bool edited = editor.on_answer(number, answer);
         const auto asked = asked_.find(number);
+        if (answer.result == slod_v1_RESULT_REGION_EXISTS && asked != asked_.end() &&
+            asked->second == "add_roi " + name_of_region(name_))
+            follow_wanted_ = false; // somebody else's
         if (!answer.applied())
             notice_ = std::string(client::word_of(answer.result)) + ": " + answer.text;
         else if (!edited && asked != asked_.end())

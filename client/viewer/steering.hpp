@@ -24,15 +24,20 @@ public:
     /// forgotten.
     bool set_server(const wire::Uuid& session);
 
+    /// No server is heard. What it has not answered is forgotten: nobody wants it done minutes later.
+    void lose_server();
+
     /// Sends a command as soon as it may be sent; without a server, says so in the notice.
     void send(client::CommandRequest request);
 
-    /// Adds a frustum region that follows the view, or removes it again.
-    void follow(bool wanted, const client::ClientView& view);
-    bool follows() const { return follows_; }
+    /// From here on there is to be a frustum region that follows the view, or none.
+    void follow(bool wanted);
+    bool follows() const { return follow_wanted_; }
 
-    /// Takes in answers, sends what is due of the editor and the queue, and the view when it changed.
-    void poll(const client::ClientView& view, Clock::time_point now);
+    /// Takes in answers, sends what is due of the editor and the queue, adds or removes the region that
+    /// follows, and sends the view when it changed.
+    void poll(const client::Connection::Regions& regions, const client::ClientView& view,
+              Clock::time_point now);
 
     view::RegionEditor editor;
 
@@ -42,6 +47,8 @@ public:
 
 private:
     void take_answers();
+    void keep_following(const client::Connection::Regions& regions, const client::ClientView& view,
+                        Clock::time_point now);
     void write_view(const client::ClientView& view, Clock::time_point now);
 
     const wire::Participant& participant_;
@@ -52,7 +59,9 @@ private:
     std::deque<client::CommandRequest> queue_;
     std::map<std::uint64_t, std::string> asked_; ///< what a command in flight asks for, by number
     std::string notice_;
-    bool follows_ = false;
+    bool heard_ = false;         ///< the server is
+    bool follow_wanted_ = false; ///< a region that follows the view
+    Clock::time_point asked_to_follow_{};
     std::optional<client::ClientView> written_;
     Clock::time_point written_at_{};
 };

@@ -49,10 +49,11 @@ void Viewer::run(const std::stop_token& stop)
 void Viewer::show_frame()
 {
     model_.viewport = window_.viewport();
+    const auto input = window_.take_input();
     if (model_.viewport.width == 0 || model_.viewport.height == 0) // the window is minimised
         return;
     window_.begin_panels();
-    use_hands(model_, window_.take_input());
+    use_hands(model_, input);
     paint_scene();
     write_picture();
     panels_.draw(model_);

@@ -237,6 +237,23 @@ TEST_F(ViewerEditor, RegionsWithoutPlaceAndSizeHaveNoHandles)
     EXPECT_TRUE(outline(all, nullptr, 1).empty());
 }
 
+TEST(ViewerCommands, APoseThatDiffersInPlaceAndSizeIsOneCommandWithBoth)
+{
+    const RegionPose small{.sphere = true, .centre = {0, 0, 0}, .radius = 1};
+    RegionPose large = small;
+    large.centre = {1, 2, 3};
+    large.radius = 2.5;
+    using Settings = std::vector<std::pair<std::string, std::string>>;
+    EXPECT_EQ(command_between("core", small, large).value().settings,
+              (Settings{{"centre", "[1, 2, 3]"}, {"radius", "2.5"}}));
+    const RegionPose box{.centre = {0, 0, 0}, .half_extent = {1, 1, 1}};
+    RegionPose moved = box;
+    moved.centre = {0.5, 0, 0};
+    moved.half_extent = {1.5, 1, 1};
+    EXPECT_EQ(command_between("core", box, moved).value().settings,
+              (Settings{{"centre", "[0.5, 0, 0]"}, {"half_extent", "[1.5, 1, 1]"}}));
+}
+
 TEST(ViewerOutline, EachShapeIsOutlinedWhereItIs)
 {
     EXPECT_EQ(outline(box(1), nullptr, 1).size(), 12U) << "edges";
