@@ -1,10 +1,10 @@
 #pragma once
 
+#include <stop_token>
+
 #include "stress/order.hpp"
 #include "stress/results.hpp"
 #include "stress/tether.hpp"
-
-#include <stop_token>
 
 namespace slod::stress {
 

@@ -1,8 +1,3 @@
-#include "stress/clients.hpp"
-#include "stress/rough_conduct.hpp"
-#include "stress/storm.hpp"
-#include "stress/ticker.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -11,6 +6,10 @@
 
 #include "common/commander.hpp"
 #include "common/connection.hpp"
+#include "stress/clients.hpp"
+#include "stress/rough_conduct.hpp"
+#include "stress/storm.hpp"
+#include "stress/ticker.hpp"
 
 namespace slod::stress {
 
@@ -58,7 +57,6 @@ public:
         : order_(order), connection_(order.domain, wire::Profile(order.profile), {.regions = true}),
           commander_(connection_.participant()), answers_(connection_.participant()),
           storm_({.prefix = order.run + std::to_string(order.index) + "-",
-
                   .regions = order.regions,
                   .extent = order.extent,
                   .seed = order.seed}),

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "stress/client_process.hpp"
-#include "stress/order.hpp"
-#include "stress/results.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <vector>
+
+#include "stress/client_process.hpp"
+#include "stress/order.hpp"
+#include "stress/results.hpp"
 
 namespace slod::stress {
 

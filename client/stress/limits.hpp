@@ -1,10 +1,10 @@
 #pragma once
 
-#include "stress/report.hpp"
-
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "stress/report.hpp"
 
 namespace slod::stress {
 

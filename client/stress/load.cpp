@@ -1,10 +1,10 @@
-#include "stress/crew.hpp"
-#include "stress/run.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <random>
 #include <string>
+
+#include "stress/crew.hpp"
+#include "stress/run.hpp"
 
 namespace slod::stress {
 

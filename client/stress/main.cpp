@@ -1,7 +1,3 @@
-#include "stress/clients.hpp"
-#include "stress/options.hpp"
-#include "stress/run.hpp"
-
 #include <exception>
 #include <signal.h>
 #include <string_view>
@@ -9,6 +5,9 @@
 
 #include "idl/dds.hpp"
 #include "idl/stop_on_signal.hpp"
+#include "stress/clients.hpp"
+#include "stress/options.hpp"
+#include "stress/run.hpp"
 
 int main(int argc, char** argv)
 try {

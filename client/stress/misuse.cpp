@@ -1,11 +1,11 @@
 #include "stress/misuse.hpp"
 
-#include "stress/storm.hpp"
-
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <utility>
+
+#include "stress/storm.hpp"
 
 namespace slod::stress {
 

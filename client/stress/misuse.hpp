@@ -1,10 +1,10 @@
 #pragma once
 
-#include "stress/draft.hpp"
-
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "stress/draft.hpp"
 
 namespace slod::stress {
 

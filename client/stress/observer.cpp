@@ -1,11 +1,11 @@
 #include "stress/observer.hpp"
 
-#include "stress/process_use.hpp"
-
 #include <array>
 #include <string>
 #include <unistd.h>
 #include <utility>
+
+#include "stress/process_use.hpp"
 
 namespace slod::stress {
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "stress/server_use.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
 
 #include "common/connection.hpp"
+#include "stress/server_use.hpp"
 
 namespace slod::stress {
 

@@ -1,14 +1,13 @@
 #pragma once
 
-#include "stress/limits.hpp"
-#include "stress/order.hpp"
-
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "idl/profile.hpp"
+#include "stress/limits.hpp"
+#include "stress/order.hpp"
 
 namespace slod::stress {
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "stress/json.hpp"
-#include "stress/results.hpp"
-
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+
+#include "stress/json.hpp"
+#include "stress/results.hpp"
 
 namespace slod::stress {
 

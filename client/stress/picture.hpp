@@ -1,9 +1,9 @@
 #pragma once
 
-#include "stress/report.hpp"
-
 #include <string>
 #include <vector>
+
+#include "stress/report.hpp"
 
 namespace slod::stress {
 

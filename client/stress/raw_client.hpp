@@ -1,8 +1,5 @@
 #pragma once
 
-#include "stress/answer_book.hpp"
-#include "stress/draft.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -11,6 +8,8 @@
 #include <vector>
 
 #include "idl/dds.hpp"
+#include "stress/answer_book.hpp"
+#include "stress/draft.hpp"
 
 namespace slod::stress {
 

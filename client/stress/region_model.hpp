@@ -1,11 +1,11 @@
 #pragma once
 
-#include "stress/draft.hpp"
-
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "stress/draft.hpp"
 
 namespace slod::stress {
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "stress/json.hpp"
-#include "stress/results.hpp"
-#include "stress/server_use.hpp"
-
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "stress/json.hpp"
+#include "stress/results.hpp"
+#include "stress/server_use.hpp"
 
 namespace slod::stress {
 

@@ -1,9 +1,9 @@
-#include "stress/report.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
+
+#include "stress/report.hpp"
 
 namespace slod::stress {
 

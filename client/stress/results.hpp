@@ -1,16 +1,16 @@
 #pragma once
 
-#include "stress/answer_book.hpp"
-#include "stress/json.hpp"
-#include "stress/latency_histogram.hpp"
-#include "stress/stream_tally.hpp"
-
 #include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "stress/answer_book.hpp"
+#include "stress/json.hpp"
+#include "stress/latency_histogram.hpp"
+#include "stress/stream_tally.hpp"
 
 namespace slod::stress {
 

@@ -1,8 +1,8 @@
 #include "stress/rough_conduct.hpp"
 
-#include "stress/storm.hpp"
-
 #include <algorithm>
+
+#include "stress/storm.hpp"
 
 namespace slod::stress {
 

@@ -1,10 +1,5 @@
 #pragma once
 
-#include "stress/misuse.hpp"
-#include "stress/order.hpp"
-#include "stress/raw_client.hpp"
-#include "stress/region_model.hpp"
-
 #include <cstdint>
 #include <map>
 #include <random>
@@ -12,6 +7,10 @@
 #include <vector>
 
 #include "common/connection.hpp"
+#include "stress/misuse.hpp"
+#include "stress/order.hpp"
+#include "stress/raw_client.hpp"
+#include "stress/region_model.hpp"
 
 namespace slod::stress {
 

@@ -1,12 +1,12 @@
 #include "stress/run.hpp"
 
-#include "stress/picture.hpp"
-
 #include <chrono>
 #include <cstdio>
 #include <optional>
 #include <sched.h>
 #include <string>
+
+#include "stress/picture.hpp"
 
 namespace slod::stress {
 

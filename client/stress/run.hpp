@@ -1,11 +1,11 @@
 #pragma once
 
+#include <stop_token>
+#include <vector>
+
 #include "stress/observer.hpp"
 #include "stress/options.hpp"
 #include "stress/report.hpp"
-
-#include <stop_token>
-#include <vector>
 
 namespace slod::stress {
 

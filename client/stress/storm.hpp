@@ -1,13 +1,13 @@
 #pragma once
 
-#include "stress/draft.hpp"
-#include "stress/region_model.hpp"
-
 #include <cstdint>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "stress/draft.hpp"
+#include "stress/region_model.hpp"
 
 namespace slod::stress {
 

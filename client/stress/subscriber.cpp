@@ -1,5 +1,3 @@
-#include "stress/clients.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <limits>
@@ -10,6 +8,7 @@
 #include <thread>
 
 #include "common/connection.hpp"
+#include "stress/clients.hpp"
 
 namespace slod::stress {
 

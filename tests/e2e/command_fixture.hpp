@@ -1,7 +1,5 @@
 #pragma once
 
-#include "e2e/wire_support.hpp"
-
 #include <array>
 #include <chrono>
 #include <map>
@@ -16,6 +14,7 @@
 #include "common/commander.hpp"
 #include "common/connection.hpp"
 #include "ctl/command_line.hpp"
+#include "e2e/wire_support.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace slod {

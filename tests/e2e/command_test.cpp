@@ -1,5 +1,3 @@
-#include "e2e/command_fixture.hpp"
-
 #include <algorithm>
 #include <fstream>
 #include <memory>
@@ -7,6 +5,7 @@
 #include <signal.h>
 #include <thread>
 
+#include "e2e/command_fixture.hpp"
 #include "idl/dds.hpp"
 
 // Commands from end to end: the real server and slodctl, over loopback.

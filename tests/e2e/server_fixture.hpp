@@ -1,7 +1,5 @@
 #pragma once
 
-#include "e2e/server_process.hpp"
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "e2e/server_process.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace slod {

@@ -1,9 +1,9 @@
-#include "e2e/server_fixture.hpp"
-
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+
+#include "e2e/server_fixture.hpp"
 
 namespace slod {
 namespace {

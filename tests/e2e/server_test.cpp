@@ -1,8 +1,8 @@
-#include "e2e/server_fixture.hpp"
-
 #include <csignal>
 #include <fstream>
 #include <sys/stat.h>
+
+#include "e2e/server_fixture.hpp"
 
 namespace slod {
 namespace {

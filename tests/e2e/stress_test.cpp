@@ -1,5 +1,3 @@
-#include "e2e/command_fixture.hpp"
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +5,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "e2e/command_fixture.hpp"
 
 // slod-stress against the real server, over loopback.
 namespace slod {

@@ -1,11 +1,10 @@
-#include "e2e/command_fixture.hpp"
-
 #include <cstdlib>
 #include <memory>
 #include <signal.h>
 
 #include <gd.h>
 
+#include "e2e/command_fixture.hpp"
 #include "view/region_shape.hpp"
 
 // The real viewer: without a screen, and in a window on a screen that nobody sees.

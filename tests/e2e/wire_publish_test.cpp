@@ -1,4 +1,3 @@
-#include "e2e/wire_support.hpp"
 #include "unit/wire_snapshots.hpp"
 
 #include <chrono>
@@ -9,6 +8,7 @@
 
 #include "app/publisher.hpp"
 #include "common/connection.hpp"
+#include "e2e/wire_support.hpp"
 
 // The publisher without a simulation, over loopback, read by the clients' own library.
 namespace slod {

@@ -1,5 +1,3 @@
-#include "e2e/wire_support.hpp"
-
 #include <chrono>
 #include <iterator>
 #include <signal.h>
@@ -12,6 +10,7 @@
 
 #include "common/connection.hpp"
 #include "ctl/command_line.hpp"
+#include "e2e/wire_support.hpp"
 
 // The real slodctl, and the clients' library, against a server process without a simulation.
 namespace slod {

@@ -1,8 +1,3 @@
-#include "stress/answer_book.hpp"
-#include "stress/misuse.hpp"
-#include "stress/region_model.hpp"
-#include "stress/storm.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -11,6 +6,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "stress/answer_book.hpp"
+#include "stress/misuse.hpp"
+#include "stress/region_model.hpp"
+#include "stress/storm.hpp"
 
 namespace slod::stress {
 namespace {

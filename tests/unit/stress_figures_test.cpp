@@ -1,11 +1,3 @@
-#include "stress/latency_histogram.hpp"
-#include "stress/order.hpp"
-#include "stress/process_use.hpp"
-#include "stress/results.hpp"
-#include "stress/server_use.hpp"
-#include "stress/stream_tally.hpp"
-#include "stress/ticker.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +6,14 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "stress/latency_histogram.hpp"
+#include "stress/order.hpp"
+#include "stress/process_use.hpp"
+#include "stress/results.hpp"
+#include "stress/server_use.hpp"
+#include "stress/stream_tally.hpp"
+#include "stress/ticker.hpp"
 
 namespace slod::stress {
 namespace {

@@ -1,12 +1,12 @@
-#include "stress/limits.hpp"
-#include "stress/picture.hpp"
-#include "stress/report.hpp"
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "stress/limits.hpp"
+#include "stress/picture.hpp"
+#include "stress/report.hpp"
 
 namespace slod::stress {
 namespace {
