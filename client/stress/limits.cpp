@@ -23,6 +23,12 @@ std::string figure(double value)
 /// Collects checks.
 class Judge {
 public:
+    /// `wrong`: why it is not so; empty when it is.
+    void is_so(const std::string& claim, const std::string& wrong)
+    {
+        checks.push_back({wrong.empty(), claim + (wrong.empty() ? "" : ": " + wrong)});
+    }
+
     void none(const std::string& what, std::uint64_t count)
     {
         checks.push_back({count == 0, what + ": " + std::to_string(count)});
@@ -78,6 +84,7 @@ void judge_commands(Judge& judge, const CommandReport& commands)
 std::vector<Check> checks(const Report& report, const Limits& limits)
 {
     Judge judge;
+    judge.is_so("the server is there, and the same one, from beginning to end", report.lost_server);
     judge.none("clients that ended without a result", report.missing_workers);
     judge.none("frames that waited for the wire", report.load.delayed_frames);
     judge.none("samples that DDS refused", report.load.refused_samples);

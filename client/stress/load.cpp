@@ -21,6 +21,9 @@ constexpr std::chrono::seconds longest_start{60};
 /// For a client to report: it waits for answers and news twice.
 constexpr std::chrono::seconds longest_end{45};
 
+/// Of a server, which gives a sign of life twice a second: as long as its simulation may stand still.
+constexpr std::chrono::seconds longest_silence{5};
+
 Clock::duration duration(double seconds)
 {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -84,13 +87,25 @@ void watch_until(Observer& observer, Crew& crew, Clock::duration patience, const
     }
 }
 
-/// The server as it was when the load began; what it said since where it is still there.
-void describe(Report& report, const client::ServerInfo& server, const client::Connection& connection)
+/// Why the server is not there after the load; empty when it has given a sign of life since `heartbeat`.
+std::string loss_of_server(Observer& observer, Crew& crew, std::uint64_t heartbeat)
 {
+    const auto heard = [&] { return observer.heartbeat() > heartbeat; };
+    watch_until(observer, crew, longest_silence, std::stop_token(),
+                [&] { return heard() || !observer.absence().empty(); });
+    if (const std::string absence = observer.absence(); !absence.empty())
+        return absence;
+    return heard() ? "" : "it has been silent since the load ended";
+}
+
+/// The server as it was when the load began; what it said since where it is still there.
+void describe(Report& report, const client::ServerInfo& server, const Observer& observer)
+{
+    const client::Connection& connection = observer.connection();
     report.scene = server.scene_title;
     report.host = server.host;
     report.version = server.version;
-    if (!connection.stats() || connection.server()->session != server.session)
+    if (!observer.sees_server())
         return;
     report.sample_bytes = connection.server()->max_sample_bytes;
     report.particles = connection.stats()->particles;
@@ -124,17 +139,22 @@ Report load(Observer& observer, const Options& options, const ServerUse& rest, c
         return options.commands > 0 && crew.commanders_done();
     });
     const std::vector<ServerSample> samples = observer.take_samples();
+    const std::uint64_t heartbeat = observer.heartbeat();
+    std::string lost_server = observer.absence();
     crew.end();
     watch_until(observer, crew, longest_end, std::stop_token(), [&] { return crew.all_done(); });
+    if (lost_server.empty())
+        lost_server = loss_of_server(observer, crew, heartbeat);
 
     Report report{.subscribers = options.subscribers,
                   .commanders = options.commanders,
                   .missing_workers = crew.missing(),
+                  .lost_server = lost_server,
                   .rest = rest,
                   .load = use_of(samples),
                   .commands = report_of(crew.commanders())};
     report.readers = report_of(crew.subscribers(), report.load.seconds);
-    describe(report, server, observer.connection());
+    describe(report, server, observer);
     return report;
 }
 

@@ -27,16 +27,37 @@ Observer::Observer(std::uint32_t domain, wire::Profile profile)
 void Observer::watch(const std::stop_token& stop, std::chrono::nanoseconds timeout)
 {
     connection_.wait(stop, timeout);
+    if (!session_ && connection_.stats())
+        session_ = connection_.server()->session;
     if (!sees_server())
         return;
     if (samples_.empty() || samples_.back().frame != connection_.stats()->frame)
         samples_.push_back(sample());
 }
 
+/// Statistics are of the server that is followed, so that there is one when there are any.
+bool Observer::sees_server() const
+{
+    return session_ && connection_.stats() && connection_.server()->session == *session_;
+}
+
+std::string Observer::absence() const
+{
+    if (session_ && connection_.server()->session != *session_)
+        return "it ended, and another one has taken its place";
+    const client::Status status = connection_.status();
+    return status.contact == client::Contact::NoServer ? status.reason : "";
+}
+
+std::uint64_t Observer::heartbeat() const
+{
+    return connection_.server() ? connection_.server()->heartbeat : 0;
+}
+
 std::vector<ServerSample> Observer::take_samples()
 {
     constexpr double silence_s = 1;
-    if (!samples_.empty() && sample().when_s - samples_.back().when_s > silence_s)
+    if (!samples_.empty() && sees_server() && sample().when_s - samples_.back().when_s > silence_s)
         samples_.push_back(sample());
     return std::exchange(samples_, {});
 }

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "common/connection.hpp"
@@ -20,15 +22,25 @@ public:
     void watch(const std::stop_token& stop, std::chrono::nanoseconds timeout);
 
     const client::Connection& connection() const { return connection_; }
-    bool sees_server() const { return connection_.stats() && connection_.server(); }
 
-    /// The samples since the last call; after a second's silence one more, of how it is at present.
+    /// Whether the server speaks: the first one that did, and no other that came in its place.
+    bool sees_server() const;
+
+    /// Why the server is not there, as a sentence without its full stop; empty when it is.
+    std::string absence() const;
+
+    /// Grows with every sign of life of whichever server is followed; 0 when none ever was.
+    std::uint64_t heartbeat() const;
+
+    /// The samples of that server since the last call; after a second's silence one more, of how it is at
+    /// present.
     std::vector<ServerSample> take_samples();
 
 private:
     ServerSample sample() const;
 
     client::Connection connection_;
+    std::optional<wire::Uuid> session_; ///< of the first server that was seen
     std::vector<ServerSample> samples_;
 };
 

@@ -36,6 +36,7 @@ struct Report {
     std::uint64_t particles = 0, clusters = 0, sample_bytes = 0;
     std::uint64_t subscribers = 0, commanders = 0;
     std::uint64_t missing_workers = 0; ///< that ended without a result
+    std::string lost_server{};         ///< why it was not there from beginning to end; empty: it was
     ServerUse rest{}, load{};
     std::vector<ReaderReport> readers{}; ///< one for each kind that took part
     CommandReport commands{};

@@ -143,6 +143,7 @@ Json json_of(const Report& report)
               {"subscribers", report.subscribers},
               {"commanders", report.commanders},
               {"missing_workers", report.missing_workers},
+              {"lost_server", report.lost_server.empty() ? Json() : Json(report.lost_server)},
               {"rest", json_of(report.rest)},
               {"load", json_of(report.load)},
               {"processor_growth_percent", json_of(processor_growth_percent(report.rest, report.load))},

@@ -48,7 +48,7 @@ std::string caveat(const Options& options, const client::Connection& connection,
     return {};
 }
 
-/// One run, or for a sweep one for each number of subscribers.
+/// One run, or for a sweep one for each number of subscribers as long as the server is there; at least one.
 std::vector<Report> reports_of(Observer& observer, const Options& options, const std::stop_token& stop)
 {
     const ServerUse rest = observe_rest(observer, options.baseline_s, stop);
@@ -56,12 +56,14 @@ std::vector<Report> reports_of(Observer& observer, const Options& options, const
         return {load(observer, options, rest, stop)};
     std::vector<Report> reports;
     Options step = options;
-    for (step.subscribers = 1; step.subscribers <= options.subscribers && !stop.stop_requested();
-         step.subscribers *= 2) {
+    step.subscribers = 1;
+    do {
         reports.push_back(load(observer, step, rest, stop));
         std::fputs(sweep_line(reports.back()).c_str(), stdout);
         std::fflush(stdout);
-    }
+        step.subscribers *= 2;
+    } while (step.subscribers <= options.subscribers && reports.back().lost_server.empty() &&
+             !stop.stop_requested());
     return reports;
 }
 
@@ -102,8 +104,6 @@ ExitCode run(const Options& options, const std::stop_token& stop)
         return ExitCode::NoServer;
     }
     const std::vector<Report> reports = reports_of(observer, options, stop);
-    if (reports.empty())
-        return ExitCode::NotHeld;
     if (const std::string warning = caveat(options, observer.connection(), reports.front().rest);
         !warning.empty())
         complain("warning: " + warning);

@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <signal.h>
 #include <sstream>
 #include <string>
@@ -153,6 +154,28 @@ TEST_F(Stress, NoClientOutlivesTheProgram)
     EXPECT_EQ(clients().size(), 4U);
     load.signal(SIGKILL);
     EXPECT_TRUE(test::eventually([&] { return clients().empty(); })) << clients();
+}
+
+// Killed, it takes no leave: that it is gone is seen by its silence alone. One reader stands still from the
+// third second of the load to the fifth, which shows that it is under way.
+TEST_F(Stress, AServerThatIsKilledUnderLoadDoesNotHold)
+{
+    const std::string mark = "mark-" + std::to_string(getpid());
+    for (const bool starts_again : {false, true}) {
+        SCOPED_TRACE(starts_again ? "and starts again" : "for good");
+        const Child killed(server());
+        ASSERT_EQ(control({"roi", "add", mark, "--radius", "1"}), 0);
+        Child load(stress({"--subscribers", "2", "--stopped", "1", "--seconds", "12", "--baseline", "0",
+                           "--region", mark}));
+        ASSERT_TRUE(test::eventually([&] {
+            return states_of("\"region\":\"" + mark).find('T') != std::string::npos;
+        })) << load.errors();
+        killed.signal(SIGKILL);
+        const auto again = starts_again ? std::make_unique<Child>(server()) : nullptr;
+        EXPECT_EQ(load.wait(), 1) << load.output() << load.errors();
+        EXPECT_NE(load.output().find("NOT HELD  the server is there, and the same one"), std::string::npos)
+            << load.output();
+    }
 }
 
 TEST_F(Stress, AnInterruptEndsTheRunWithAReport)

@@ -105,6 +105,7 @@ TEST(StressLimits, WhatMustNeverBeIsJudgedWithoutALimit)
     EXPECT_TRUE(fails([](Report& report) { report.load.refused_samples = 1; }));
     EXPECT_TRUE(fails([](Report& report) { report.load.longest_standstill_s = 6; }));
     EXPECT_TRUE(fails([](Report& report) { report.missing_workers = 1; }));
+    EXPECT_TRUE(fails([](Report& report) { report.lost_server = "it was killed"; }));
     EXPECT_TRUE(fails([](Report& report) { report.commands.valid.lost = 1; }));
     EXPECT_TRUE(fails([](Report& report) { report.commands.rough.contradicted = 1; }));
     EXPECT_TRUE(fails([](Report& report) { report.commands.rough.unexpected = 1; }));
