@@ -55,14 +55,18 @@ private:
     }
 };
 
-/// The worst over the readers that are judged; none when nobody of them took part.
+/// The worst over the readers that are judged; none when nobody of them took part, or some kind got nothing.
 template <class Measure>
 std::optional<double> worst(const Report& report, const Measure& measure)
 {
     std::optional<double> found;
-    for (const ReaderReport& readers : report.readers)
-        if (counts_against_limits(readers.reader))
-            found = std::max(found.value_or(0), measure(readers));
+    for (const ReaderReport& readers : report.readers) {
+        if (!counts_against_limits(readers.reader))
+            continue;
+        if (readers.received == 0)
+            return {};
+        found = std::max(found.value_or(0), measure(readers));
+    }
     return found;
 }
 

@@ -44,8 +44,8 @@ std::vector<ReaderReport> report_of(const std::vector<SubscriberResult>& results
             report.received += result.received;
             report.latency.add(result.latency);
             bytes += double(result.bytes);
-            // Who got nothing at all while others did has lost everything.
-            const bool nothing = result.received == 0 && !latest.empty() && result.visits <= 1;
+            // Who got nothing at all has lost everything; who only came and went may have met no sample.
+            const bool nothing = result.received == 0 && result.visits <= 1;
             delivered += nothing ? 0 : delivered_share(result.received, result.sent, result.open, latest);
         }
         if (report.readers == 0)

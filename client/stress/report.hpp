@@ -17,7 +17,7 @@ struct ReaderReport {
     std::uint64_t readers = 0;
     std::uint64_t visits = 0;
     std::uint64_t received = 0; ///< samples
-    double delivered = 1;       ///< share of what was sent to them
+    double delivered = 1;       ///< share of what was sent to them; 0 where nothing came
     double mb_s = 0;            ///< received, 10^6 bytes per second, all together
     LatencyHistogram latency{};
 };

@@ -113,7 +113,7 @@ TEST_F(Stress, TheExitCodeSaysWhetherLimitsHeld)
 {
     EXPECT_EQ(Child({SLOD_STRESS, "--domain", domain.text(), "--timeout", "0.2"}).wait(), 69);
     const Child running(server());
-    const Words brief{"--subscribers", "1", "--seconds", "1", "--baseline", "0"};
+    const Words brief{"--subscribers", "1", "--seconds", "2", "--baseline", "0"};
     const auto with = [&brief](Words words) {
         words.insert(words.begin(), brief.begin(), brief.end());
         return words;

@@ -64,12 +64,12 @@ TEST(StressReport, AddsUpEachKindOfReader)
     EXPECT_DOUBLE_EQ(readers[1].delivered, 0.1);
 }
 
-TEST(StressReport, AReaderThatGotNothingWhileOthersDidHasLostAll)
+TEST(StressReport, AReaderThatGotNothingHasLostAll)
 {
     const SubscriberResult nothing{.reader = Reader::Steady};
     const auto readers = report_of({reader(Reader::Steady, 100, 100, 2), nothing}, 10);
     EXPECT_DOUBLE_EQ(readers[0].delivered, 0.5);
-    EXPECT_DOUBLE_EQ(report_of({nothing}, 10)[0].delivered, 1) << "nothing was sent";
+    EXPECT_DOUBLE_EQ(report_of({nothing}, 10)[0].delivered, 0) << "whether or not others got something";
 }
 
 TEST(StressLimits, EachHoldsAtItsFigureAndNotBeyond)
@@ -92,6 +92,12 @@ TEST(StressLimits, ALimitOnWhatWasNotMeasuredDoesNotHold)
 {
     EXPECT_FALSE(holds(some_report(), {.round_trip_ms = 1000}));
     EXPECT_FALSE(holds(some_report(), {.memory_growth_mib = 1000}));
+    Report report = some_report();
+    report.readers =
+        report_of({reader(Reader::Steady, 100, 100, 2), reader(Reader::BestEffort, 0, 0, 0)}, 10);
+    EXPECT_TRUE(holds(report)) << "nothing was asked for";
+    EXPECT_FALSE(holds(report, {.loss_percent = 100})) << "one kind got nothing";
+    EXPECT_FALSE(holds(report, {.latency_ms = 1000}));
 }
 
 TEST(StressLimits, WhatMustNeverBeIsJudgedWithoutALimit)
