@@ -27,8 +27,9 @@ void Crew::poll()
 
 std::size_t Crew::unready() const
 {
-    const auto count = std::count_if(members_.begin(), members_.end(),
-                                     [](const Member& member) { return !member.process.ready(); });
+    const auto count = std::count_if(members_.begin(), members_.end(), [](const Member& member) {
+        return !member.process.ready() && !member.process.gone();
+    });
     return std::size_t(count);
 }
 

@@ -20,7 +20,7 @@ public:
     /// Takes in what the clients have written.
     void poll();
 
-    /// How many have not said that they are ready.
+    /// How many have not said that they are ready, and still may.
     std::size_t unready() const;
 
     void begin(Clock::time_point now);
