@@ -53,6 +53,24 @@ std::string problem(const CommandRequest& request)
     return {};
 }
 
+void fill(wire::Command& command, std::vector<wire::Assignment>& settings, const CommandRequest& request)
+{
+    wire::set(command.kind, request.kind);
+    wire::set(command.region, request.region);
+    command.if_revision = request.if_revision;
+    command.lease_s = request.lease_s;
+    command.frames = request.frames;
+    command.centre = message_of(request.centre);
+    command.half_extent = message_of(request.half_extent);
+    command.radius = request.radius;
+    settings.resize(request.settings.size());
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        wire::set(settings[i].setting, request.settings[i].first);
+        wire::set(settings[i].value, request.settings[i].second);
+    }
+    wire::lend(command.settings, settings);
+}
+
 std::string_view word_of(wire::ResultCode result)
 {
     switch (result) {
@@ -98,25 +116,12 @@ void Commander::write(std::uint64_t number, Unanswered& unanswered)
 {
     if (!connected())
         return;
-    const CommandRequest& request = unanswered.request;
     wire::Command command{};
+    std::vector<wire::Assignment> settings;
     wire::set(command.client, client_);
     command.request = number;
     wire::set(command.session, unanswered.session);
-    wire::set(command.kind, request.kind);
-    wire::set(command.region, request.region);
-    command.if_revision = request.if_revision;
-    command.lease_s = request.lease_s;
-    command.frames = request.frames;
-    command.centre = message_of(request.centre);
-    command.half_extent = message_of(request.half_extent);
-    command.radius = request.radius;
-    std::vector<wire::Assignment> settings(request.settings.size());
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-        wire::set(settings[i].setting, request.settings[i].first);
-        wire::set(settings[i].value, request.settings[i].second);
-    }
-    wire::lend(command.settings, settings);
+    fill(command, settings, unanswered.request);
     if (writer_.write(command))
         unanswered.sent = Clock::now();
 }

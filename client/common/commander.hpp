@@ -30,6 +30,10 @@ struct CommandRequest {
 /// What is too long or too much for the wire, in a sentence; empty when nothing is.
 std::string problem(const CommandRequest& request);
 
+/// Puts what is requested into the message. Its settings are lent from `settings`, which are overwritten and
+/// must outlive the message's use. The request must have no problem().
+void fill(wire::Command& command, std::vector<wire::Assignment>& settings, const CommandRequest& request);
+
 /// What the server said to it, as in CommandReply.
 struct CommandAnswer {
     wire::ResultCode result = slod_v1_RESULT_APPLIED;

@@ -27,19 +27,6 @@ constexpr Clock::duration longest_answer =
 /// Regions that were changed are told of at once; more than that is a fault.
 constexpr std::chrono::seconds longest_news{5};
 
-client::CommandRequest request_of(const Draft& draft)
-{
-    return {.kind = draft.kind,
-            .region = draft.region,
-            .if_revision = draft.if_revision,
-            .lease_s = draft.lease_s,
-            .frames = draft.frames,
-            .centre = draft.centre,
-            .half_extent = draft.half_extent,
-            .radius = draft.radius,
-            .settings = draft.settings};
-}
-
 RegionState state_of(const client::RegionInfo& region)
 {
     return {.shape = region.shape,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/commander.hpp"
-
 namespace slod::stress {
 
 namespace {
@@ -12,12 +10,20 @@ namespace {
 /// Silence after which a command is written again: longer than a frame of most scenes takes.
 constexpr std::chrono::milliseconds retry_period{500};
 
-slod_v1_Vector message_of(const Vector& vector)
-{
-    return {vector[0], vector[1], vector[2]};
-}
-
 } // namespace
+
+client::CommandRequest request_of(const Draft& draft)
+{
+    return {.kind = draft.kind,
+            .region = draft.region,
+            .if_revision = draft.if_revision,
+            .lease_s = draft.lease_s,
+            .frames = draft.frames,
+            .centre = draft.centre,
+            .half_extent = draft.half_extent,
+            .radius = draft.radius,
+            .settings = draft.settings};
+}
 
 Reply reply_of(const wire::CommandReply& reply)
 {
@@ -75,20 +81,8 @@ void RawClient::write(const wire::Uuid& client, std::uint64_t number, const Draf
     wire::set(command.client, client);
     command.request = number;
     wire::set(command.session, session_);
-    wire::set(command.kind, draft.kind);
-    wire::set(command.region, draft.region);
-    command.if_revision = draft.if_revision;
-    command.lease_s = draft.lease_s;
-    command.frames = draft.frames;
-    command.centre = message_of(draft.centre);
-    command.half_extent = message_of(draft.half_extent);
-    command.radius = draft.radius;
-    std::vector<wire::Assignment> settings(draft.settings.size());
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-        wire::set(settings[i].setting, draft.settings[i].first);
-        wire::set(settings[i].value, draft.settings[i].second);
-    }
-    wire::lend(command.settings, settings);
+    std::vector<wire::Assignment> settings;
+    client::fill(command, settings, request_of(draft));
     static_cast<void>(writer_.write(command));
 }
 

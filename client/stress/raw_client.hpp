@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "common/commander.hpp"
 #include "idl/dds.hpp"
 #include "stress/answer_book.hpp"
 #include "stress/draft.hpp"
 
 namespace slod::stress {
 
+client::CommandRequest request_of(const Draft& draft);
 Reply reply_of(const wire::CommandReply& reply);
 
 /// Writes commands as they are, under any name and number: what client::Commander would not do.
