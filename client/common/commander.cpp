@@ -1,6 +1,7 @@
 #include "common/commander.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace slod::client {
 
@@ -105,8 +106,12 @@ Commander::Commander(const wire::Participant& participant)
 
 std::uint64_t Commander::send(const CommandRequest& request, const wire::Uuid& session)
 {
+    if (waiting() >= max_waiting)
+        throw std::logic_error("a command was sent while " + std::to_string(max_waiting) +
+                               " others wait for answers");
     Unanswered& unanswered = unanswered_[++last_number_];
-    unanswered = {.request = request, .session = session};
+    unanswered.request = request;
+    unanswered.session = session;
     write(last_number_, unanswered);
     return last_number_;
 }
@@ -122,8 +127,11 @@ void Commander::write(std::uint64_t number, Unanswered& unanswered)
     command.request = number;
     wire::set(command.session, unanswered.session);
     fill(command, settings, unanswered.request);
-    if (writer_.write(command))
-        unanswered.sent = Clock::now();
+    if (!writer_.write(command))
+        return;
+    if (unanswered.sent)
+        ++rewrites_;
+    unanswered.sent = Clock::now();
 }
 
 void Commander::poll()
@@ -136,10 +144,8 @@ void Commander::poll()
     });
     const Clock::time_point now = Clock::now();
     for (auto& [number, unanswered] : unanswered_)
-        if (now - unanswered.sent >= retry_period) {
-            ++rewrites_;
+        if (!unanswered.sent || now - *unanswered.sent >= retry_period)
             write(number, unanswered);
-        }
 }
 
 void Commander::forget()

@@ -67,7 +67,7 @@ public:
     bool connected() const { return writer_.matched() && reader_.matched(); }
 
     /// Sends a request, which must have no problem(), to the server of that session (all 0: any) as soon as
-    /// there is one; returns its number. At most max_waiting may be unanswered.
+    /// there is one; returns its number. Throws std::logic_error when max_waiting are unanswered.
     std::uint64_t send(const CommandRequest& request, const wire::Uuid& session = {});
 
     /// Takes in answers; sends again what has none yet.
@@ -95,7 +95,7 @@ private:
     struct Unanswered {
         CommandRequest request;
         wire::Uuid session;
-        Clock::time_point sent{};
+        std::optional<Clock::time_point> sent{}; ///< last; none: not yet
     };
 
     void write(std::uint64_t number, Unanswered& unanswered);

@@ -74,6 +74,8 @@ public:
         });
         connection_.poll();
         rough_.raw().retry();
+        for (; !removals_.empty() && may_send(); removals_.pop_back())
+            send(removals_.back());
     }
 
     void begin();
@@ -87,16 +89,18 @@ public:
         return order_.commands > 0 && book_.commands() + rough_.raw().book().commands() >= order_.commands;
     }
 
-    bool waiting() const { return book_.waiting() + rough_.raw().book().waiting() > 0; }
+    bool waiting() const { return !removals_.empty() || book_.waiting() + rough_.raw().book().waiting() > 0; }
 
     /// What differs from what the answers say.
     std::vector<std::string> wrong_regions() const;
 
+    /// From then on removes the regions that it has left, as answers come.
     void clean_up();
 
     CommanderResult result() const;
 
 private:
+    bool may_send() const { return commander_.waiting() < client::Commander::max_waiting; }
     void send(const Draft& draft);
     void on_answer(const wire::CommandReply& reply);
 
@@ -107,6 +111,7 @@ private:
     Storm storm_;
     AnswerBook book_;                                 ///< of the storm
     std::map<std::uint64_t, Clock::time_point> sent_; ///< by number, of what the storm waits for
+    std::vector<Draft> removals_;                     ///< still to be sent, to tidy up
     RoughConduct rough_;
     LatencyHistogram round_trip_;
     Ticker storm_due_, malformed_due_, duplicates_due_, reordered_due_, impostors_due_;
@@ -133,7 +138,7 @@ void CommandingClient::act()
         action();
         due.mark(now);
     };
-    act_if_due(storm_due_, commander_.waiting() < client::Commander::max_waiting, [this] {
+    act_if_due(storm_due_, may_send(), [this] {
         if (const auto draft = storm_.next())
             send(*draft);
     });
@@ -173,8 +178,7 @@ std::vector<std::string> CommandingClient::wrong_regions() const
 
 void CommandingClient::clean_up()
 {
-    for (const Draft& draft : storm_.clean_up())
-        send(draft);
+    removals_ = storm_.clean_up();
     rough_.clean_up();
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <set>
 #include <signal.h>
+#include <stdexcept>
 #include <thread>
 
 #include "e2e/command_fixture.hpp"
@@ -300,6 +301,19 @@ TEST_F(Commands, AnswersToAClientThatIsSilentAreForgotten)
         look();
         return gone;
     }));
+}
+
+TEST_F(Commands, WithoutAServerNothingIsWrittenAndNoMoreIsTakenThanMayWait)
+{
+    const client::Connection connection = connect({});
+    client::Commander commander(connection.participant());
+    while (commander.waiting() < client::Commander::max_waiting)
+        commander.send({.kind = "keep_alive"});
+    EXPECT_THROW(commander.send({.kind = "keep_alive"}), std::logic_error);
+    for (int polls = 0; polls < 3; ++polls)
+        commander.poll();
+    EXPECT_EQ(commander.waiting(), client::Commander::max_waiting);
+    EXPECT_EQ(commander.rewrites(), 0U) << "what was not written at all was not written again";
 }
 
 // Commands come all the time and a frame takes long, so some are there when the last one is done.
