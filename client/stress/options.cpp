@@ -155,6 +155,8 @@ std::string problem(const Options& options)
         return "--commands needs somebody who commands: name --commanders";
     if (options.sweep && (options.commanders > 0 || special > 0))
         return "--sweep is about steady subscribers alone: leave the others out";
+    if (options.sweep && options.subscribers == 0)
+        return "--sweep counts subscribers up from 1: name at least one with --subscribers";
     return {};
 }
 
