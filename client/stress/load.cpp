@@ -142,6 +142,9 @@ Report load(Observer& observer, const Options& options, const ServerUse& rest, c
     const std::uint64_t heartbeat = observer.heartbeat();
     std::string lost_server = observer.absence();
     crew.end();
+    if (stop.stop_requested())
+        complain("the clients wait for answers to what they have sent, and report: up to " +
+                 std::to_string(longest_end.count()) + " s; Ctrl-\\ ends all at once, without a report");
     watch_until(observer, crew, longest_end, std::stop_token(), [&] { return crew.all_done(); });
     if (lost_server.empty())
         lost_server = loss_of_server(observer, crew, heartbeat);
