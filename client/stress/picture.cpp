@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <string_view>
+#include <sys/wait.h>
 
 namespace slod::stress {
 
@@ -122,13 +123,20 @@ std::string sweep_line(const Report& report)
         readers.latency.quantile(0.5), readers.latency.quantile(0.99));
 }
 
-bool run_gnuplot(const std::string& script)
+/// Where gnuplot cannot open the file it draws to stdout instead, which is for the report.
+std::string run_gnuplot(const std::string& script)
 {
-    FILE* const gnuplot = popen("gnuplot", "w");
+    constexpr int not_found = 127; // the shell's exit code
+    FILE* const gnuplot = popen("gnuplot >/dev/null", "w");
     if (!gnuplot)
-        return false;
+        return "no further process can be started; end some";
     const bool written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-    return pclose(gnuplot) == 0 && written;
+    const int status = pclose(gnuplot);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == not_found)
+        return "gnuplot is missing; install the package gnuplot-nox";
+    if (status != 0 || !written)
+        return "gnuplot could not write it; name a file in a folder that is there and may be written to";
+    return {};
 }
 
 } // namespace slod::stress

@@ -14,14 +14,18 @@ namespace {
 
 using client::Clock;
 
-/// For this process and those it starts.
+/// For this process and those it starts. False where it may not run on each: Linux leaves out those that are
+/// not there.
 bool run_on(const std::vector<int>& cpus)
 {
-    cpu_set_t set;
-    CPU_ZERO(&set);
+    if (cpus.empty())
+        return true;
+    cpu_set_t asked, given;
+    CPU_ZERO(&asked);
     for (const int cpu : cpus)
-        CPU_SET(std::size_t(cpu), &set);
-    return cpus.empty() || sched_setaffinity(0, sizeof set, &set) == 0;
+        CPU_SET(std::size_t(cpu), &asked);
+    return sched_setaffinity(0, sizeof asked, &asked) == 0 &&
+           sched_getaffinity(0, sizeof given, &given) == 0 && CPU_EQUAL(&asked, &given);
 }
 
 bool find_server(Observer& observer, double timeout_s, const std::stop_token& stop)
@@ -83,10 +87,10 @@ bool draw(const std::vector<Report>& reports, const Options& options)
         return true;
     const std::string script = options.sweep ? sweep_script(reports, options.picture)
                                              : load_script(reports.front(), options.picture);
-    if (run_gnuplot(script))
-        return true;
-    complain("cannot draw " + options.picture + "; is gnuplot installed (package gnuplot-nox)?");
-    return false;
+    const std::string problem = run_gnuplot(script);
+    if (!problem.empty())
+        complain("cannot draw " + options.picture + ": " + problem);
+    return problem.empty();
 }
 
 } // namespace
@@ -94,7 +98,8 @@ bool draw(const std::vector<Report>& reports, const Options& options)
 ExitCode run(const Options& options, const std::stop_token& stop)
 {
     if (!run_on(options.cpus)) {
-        complain("this machine has not all the processors that --cpus names");
+        complain("not all processors that --cpus names are there for this program; "
+                 "name some of those that taskset --cpu-list --pid $$ lists");
         return ExitCode::InvalidArgument;
     }
     Observer observer(options.domain, options.profile);
