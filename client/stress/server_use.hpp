@@ -14,7 +14,7 @@ struct ServerSample {
     std::uint64_t published_bytes = 0; ///< once per sample, whatever the number of readers
     std::uint64_t delayed_frames = 0;  ///< that waited for the publisher
     std::uint64_t refused_samples = 0;
-    double encode_ms = 0;                 ///< of the last published frame
+    double encode_ms = 0;                 ///< processor time, of the last published frame
     double work_ms = 0;                   ///< wall time of a frame without the wait for the next
     std::optional<double> processor_s{};  ///< user and system time so far; none: another host's
     std::optional<double> network_s{};    ///< of it, DDS's own threads
@@ -31,7 +31,7 @@ struct ServerUse {
     std::uint64_t delayed_frames = 0;
     std::uint64_t refused_samples = 0;
     double longest_standstill_s = 0;    ///< without a new frame
-    double encode_ms = 0;               ///< per frame, of any
+    double encode_ms = 0;               ///< processor time per frame, published or not
     std::optional<double> processor_ms; ///< per frame
     std::optional<double> network_ms;   ///< of it, DDS's own threads: acknowledgements, discovery, repair
     double work_ms = 0;                 ///< wall time of a frame without the wait for the next, mean
