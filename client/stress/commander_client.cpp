@@ -113,7 +113,7 @@ private:
     std::map<std::uint64_t, Clock::time_point> sent_; ///< by number, of what the storm waits for
     std::vector<Draft> removals_;                     ///< still to be sent, to tidy up
     RoughConduct rough_;
-    LatencyHistogram round_trip_;
+    DurationHistogram round_trip_;
     Ticker storm_due_, malformed_due_, duplicates_due_, reordered_due_, impostors_due_;
 };
 

@@ -101,7 +101,7 @@ std::vector<Check> checks(const Report& report, const Limits& limits)
     judge.at_most("latency p99 [ms]",
                   worst(report, [](const auto& readers) { return readers.latency.quantile(0.99); }),
                   limits.latency_ms);
-    const LatencyHistogram& round_trip = report.commands.round_trip;
+    const DurationHistogram& round_trip = report.commands.round_trip;
     judge.at_most("round trip p99 [ms]",
                   round_trip.count() > 0 ? std::optional(round_trip.quantile(0.99)) : std::nullopt,
                   limits.round_trip_ms);

@@ -39,7 +39,7 @@ std::string block(const std::string& name, const std::string& lines)
 }
 
 /// Shares that take longer than each of many durations [ms].
-std::string tail_of(const LatencyHistogram& histogram)
+std::string tail_of(const DurationHistogram& histogram)
 {
     constexpr std::array shares{0.001, 0.01, 0.05, 0.1,  0.2,  0.3,   0.4,   0.5,   0.6,    0.7,
                                 0.8,   0.9,  0.95, 0.98, 0.99, 0.995, 0.998, 0.999, 0.9995, 0.9999};
@@ -69,7 +69,7 @@ std::string load_script(const Report& report, const std::string& file)
 {
     std::string data, curves, bars;
     const auto add_curve = [&](const std::string& name, const std::string& title,
-                               const LatencyHistogram& histogram) {
+                               const DurationHistogram& histogram) {
         if (histogram.count() == 0)
             return;
         data += block(name, tail_of(histogram));

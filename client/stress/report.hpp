@@ -19,14 +19,14 @@ struct ReaderReport {
     std::uint64_t received = 0; ///< samples
     double delivered = 1;       ///< share of what was sent to them; 0 where nothing came
     double mb_s = 0;            ///< received, 10^6 bytes per second, all together
-    LatencyHistogram latency{};
+    DurationHistogram latency{};
 };
 
 /// All commanders together.
 struct CommandReport {
     AnswerTally valid, rough;
     std::map<std::string, std::uint64_t> kinds; ///< rough ones by what is rough about them
-    LatencyHistogram round_trip;
+    DurationHistogram round_trip;
     std::vector<std::string> problems; ///< the first few
     std::uint64_t wrong_regions = 0;
 };

@@ -33,7 +33,7 @@ Json json_of(const ServerUse& use)
             {"end_mib", json_of(use.end_mib)}};
 }
 
-Json json_of(const LatencyHistogram& histogram)
+Json json_of(const DurationHistogram& histogram)
 {
     return {{"count", histogram.count()},
             {"p50_ms", histogram.quantile(0.5)},
@@ -93,7 +93,7 @@ std::string text_of(const char* phase, const ServerUse& use)
            number(use.processor_ms) + " ms of processor, " + number(use.network_ms) + " of them DDS's\n";
 }
 
-std::string text_of(const LatencyHistogram& histogram)
+std::string text_of(const DurationHistogram& histogram)
 {
     return formatted("p50 %.2f  p99 %.2f  p999 %.2f ms", histogram.quantile(0.5), histogram.quantile(0.99),
                      histogram.quantile(0.999));

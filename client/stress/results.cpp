@@ -7,7 +7,7 @@ namespace slod::stress {
 namespace {
 
 /// As [[bucket, count], ...].
-Json json_of(const LatencyHistogram& histogram)
+Json json_of(const DurationHistogram& histogram)
 {
     Json pairs = Json::array();
     for (const auto& [bucket, count] : histogram.counts())
@@ -15,12 +15,12 @@ Json json_of(const LatencyHistogram& histogram)
     return pairs;
 }
 
-LatencyHistogram histogram(const Json& json)
+DurationHistogram histogram(const Json& json)
 {
-    LatencyHistogram::Counts counts;
+    DurationHistogram::Counts counts;
     for (const Json& pair : json)
         counts[pair.at(0)] = pair.at(1);
-    return LatencyHistogram(std::move(counts));
+    return DurationHistogram(std::move(counts));
 }
 
 Json json_of(const AnswerTally& tally)

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "idl/duration_histogram.hpp"
 #include "stress/answer_book.hpp"
 #include "stress/json.hpp"
-#include "stress/latency_histogram.hpp"
 #include "stress/stream_tally.hpp"
 
 namespace slod::stress {
@@ -41,8 +41,8 @@ struct SubscriberResult {
     std::uint64_t sent = 0;             ///< to it, from its first sample to its last one of each stream
     std::map<std::string, Span> open{}; ///< streams by region, of a reader that never left
     std::uint64_t bytes = 0;
-    std::uint64_t visits = 1;   ///< how often it joined
-    LatencyHistogram latency{}; ///< from the write to the read
+    std::uint64_t visits = 1;    ///< how often it joined
+    DurationHistogram latency{}; ///< from the write to the read
 };
 
 /// What became of one commander's commands.
@@ -50,7 +50,7 @@ struct CommanderResult {
     AnswerTally valid{};                          ///< of its storm
     AnswerTally rough{};                          ///< of the commands that no client should send
     std::map<std::string, std::uint64_t> kinds{}; ///< commands by what is rough about them
-    LatencyHistogram round_trip{};                ///< of the storm, from the first write to the answer
+    DurationHistogram round_trip{};               ///< of the storm, from the first write to the answer
     std::vector<std::string> wrong_answers{};     ///< the first few, one sentence each
     std::vector<std::string> wrong_regions{};     ///< where the state is not what the answers say
 };

@@ -51,7 +51,7 @@ public:
 
     StreamTally tally;
     std::uint64_t bytes = 0;
-    LatencyHistogram latency;
+    DurationHistogram latency;
 
 private:
     static wire::Repair repair(const Order& order)

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "app/duration_histogram.hpp"
+#include "idl/duration_histogram.hpp"
 #include "sim/phase.hpp"
 #include "sim/snapshot.hpp"
 

@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "stress/latency_histogram.hpp"
 #include "stress/order.hpp"
 #include "stress/process_use.hpp"
 #include "stress/results.hpp"
@@ -17,41 +13,6 @@
 
 namespace slod::stress {
 namespace {
-
-// A bucket above 64 ns is at most 1/32 of its lower edge wide and its middle stands for it, so a quantile is
-// within 1/64 of the exact one of the same rank. Below 1 us, single nanoseconds are dropped: 1e-6 ms more.
-TEST(LatencyHistogram, QuantilesAreThoseOfTheSortedListToOnePartIn64)
-{
-    for (unsigned seed = 0; seed < 64; ++seed) {
-        SCOPED_TRACE(seed);
-        std::mt19937 random(seed);
-        std::lognormal_distribution<double> some(0, 4);
-        LatencyHistogram histogram;
-        std::vector<double> all;
-        for (int i = 0; i < 999; ++i) {
-            all.push_back(some(random));
-            histogram.add(all.back());
-        }
-        std::sort(all.begin(), all.end());
-        for (const double share : {0.001, 0.01, 0.5, 0.99, 0.999, 1.0}) {
-            const double exact = all[std::size_t(std::ceil(share * double(all.size()))) - 1];
-            EXPECT_NEAR(histogram.quantile(share), exact, exact / 64 + 1e-6) << "share " << share;
-        }
-    }
-}
-
-TEST(LatencyHistogram, HistogramsOfPartsAddUpToThatOfTheWhole)
-{
-    LatencyHistogram whole, odd, even;
-    for (int i = 0; i < 1000; ++i) {
-        whole.add(0.1 * i);
-        (i % 2 ? odd : even).add(0.1 * i);
-    }
-    odd.add(even);
-    EXPECT_EQ(odd.counts(), whole.counts());
-    EXPECT_EQ(odd.count(), 1000U);
-    EXPECT_EQ(LatencyHistogram().quantile(0.5), 0);
-}
 
 TEST(StreamTally, AGapIsALossAndALowerNumberAnotherStream)
 {
