@@ -16,6 +16,9 @@ constexpr std::array<std::string_view, 2> names(Profile)
     return {"loopback", "lan"};
 }
 
+/// The highest DDS domain: those beyond have no UDP ports (DDSI-RTPS 2.3, section 9.6.1.1).
+inline constexpr std::uint32_t last_domain = 230;
+
 /// Cyclone DDS's configuration for the profile: the text of config/dds/<profile>.xml, compiled in.
 std::string_view built_in_configuration(Profile profile);
 

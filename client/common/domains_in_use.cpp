@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string>
 
+#include "idl/profile.hpp"
+
 namespace slod::client {
 
 namespace {
@@ -12,7 +14,6 @@ namespace {
 constexpr std::uint32_t port_base = 7400;
 constexpr std::uint32_t ports_per_domain = 250;
 constexpr std::uint32_t first_unicast = 10; ///< of a domain's ports
-constexpr std::uint32_t last_domain = 230;
 
 } // namespace
 
@@ -43,7 +44,7 @@ std::set<std::uint32_t> domains_in_use(std::istream& sockets)
         const std::uint32_t domain = (port - port_base) / ports_per_domain;
         const std::uint32_t place = (port - port_base) % ports_per_domain;
         const bool discovery = place >= first_unicast && place % 2 == 0;
-        if (domain <= last_domain && discovery && ports.contains(port + 1))
+        if (domain <= wire::last_domain && discovery && ports.contains(port + 1))
             domains.insert(domain);
     }
     return domains;

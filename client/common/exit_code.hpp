@@ -5,7 +5,7 @@ namespace slod::client {
 /// What a client tells its caller; the codes of BSD's sysexits.h where they fit.
 enum class ExitCode : int {
     Success = 0,
-    Failure = 1,          ///< the network could not be joined, or the screen not be used
+    Failure = 1,          ///< network or screen not usable; of slod-stress: not all that must be so was
     Usage = 2,            ///< the command line cannot be understood
     InvalidArgument = 65, ///< it can, but a value in it cannot be right
     NotFound = 66,        ///< a name that was asked for does not exist

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arguments/server_choice.hpp"
+
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -7,7 +9,6 @@
 
 #include "common/commander.hpp"
 #include "common/exit_code.hpp"
-#include "idl/profile.hpp"
 
 namespace slod::ctl {
 
@@ -16,10 +17,8 @@ using client::ExitCode;
 /// What was asked for.
 struct CommandLine {
     std::string command;
-    bool json = false;    ///< one object per line instead of text
-    double timeout_s = 3; ///< for a server, and for the answer
-    std::uint32_t domain = 0;
-    wire::Profile profile = wire::Profile::Loopback;
+    bool json = false; ///< one object per line instead of text
+    client::ServerChoice server;
     std::uint64_t count = 0;        ///< updates, or samples of echo; 0: until stopped
     bool clusters = false;          ///< watch: receive the cluster states too
     bool best_effort = false;       ///< watch: do not ask again for lost fragments of them

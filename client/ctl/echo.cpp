@@ -18,8 +18,8 @@ Json gone(Json message)
 template <class Message>
 ExitCode echo(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.domain, line.profile, {});
-    const client::Clock::time_point end = deadline(line);
+    client::Connection connection(line.server.domain, line.server.profile, {});
+    const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
     TopicStream<Message> samples(connection.participant(), line.region);

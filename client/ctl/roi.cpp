@@ -42,8 +42,8 @@ ExitCode print_one(const client::Connection& connection, const std::string& name
 
 ExitCode look(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.domain, line.profile, {.regions = true});
-    const client::Clock::time_point end = deadline(line);
+    client::Connection connection(line.server.domain, line.server.profile, {.regions = true});
+    const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
     const std::string& name = line.request.region;

@@ -24,8 +24,8 @@ const Json* find(const Json& all, std::string_view name)
 
 ExitCode run_stats(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.domain, line.profile, {.stats = true});
-    const client::Clock::time_point end = deadline(line);
+    client::Connection connection(line.server.domain, line.server.profile, {.stats = true});
+    const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
     if (!wait_until(connection, stop, end, [&] { return connection.stats() != nullptr; })) {

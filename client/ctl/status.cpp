@@ -5,8 +5,8 @@ namespace slod::ctl {
 
 ExitCode run_status(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.domain, line.profile, {});
-    if (!wait_for_server(connection, stop, deadline(line)))
+    client::Connection connection(line.server.domain, line.server.profile, {});
+    if (!wait_for_server(connection, stop, deadline(line.server)))
         return ExitCode::NoServer;
     Json answer = json_of(connection.status());
     answer.update(json_of(*connection.server()));

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "ctl/commands.hpp"
 #include "ctl/waiting.hpp"
 
@@ -49,20 +51,16 @@ ExitCode run_steering(const CommandLine& line, const std::stop_token& stop)
         complain(wrong);
         return ExitCode::InvalidArgument;
     }
-    client::Connection connection(line.domain, line.profile, {});
+    client::Connection connection(line.server.domain, line.server.profile, {});
     client::Commander commander(connection.participant());
-    const client::Clock::time_point end = deadline(line);
+    const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
     const std::uint64_t number = commander.send(line.request, connection.server()->session);
-    for (;;) {
-        if (const auto answer = commander.take_answer(number))
-            return show(*answer, line.json);
-        const client::Clock::time_point now = client::Clock::now();
-        if (now >= end || stop.stop_requested())
-            break;
-        commander.wait(stop, end - now);
-    }
+    std::optional<client::CommandAnswer> answer;
+    const auto answered = [&] { return (answer = commander.take_answer(number)).has_value(); };
+    if (wait_until(commander, stop, end, answered))
+        return show(*answer, line.json);
     complain(commander.connected()
                  ? "the server has not answered in time; wait longer with --timeout"
                  : "the server takes no commands, or could not be reached in time; start it with "

@@ -58,8 +58,8 @@ void warn_of_another_clock(const client::Connection& connection)
 template <class Message>
 ExitCode measure_topic(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.domain, line.profile, {});
-    const client::Clock::time_point end = deadline(line);
+    client::Connection connection(line.server.domain, line.server.profile, {});
+    const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
     if (line.command == "latency")

@@ -83,8 +83,8 @@ ExitCode run_watch(const CommandLine& line, const std::stop_token& stop)
                                             .clusters = line.clusters,
                                             .repair = line.best_effort ? wire::Repair::GoOn
                                                                        : wire::Repair::AskAgain};
-    client::Connection connection(line.domain, line.profile, subscription);
-    if (!wait_for_server(connection, stop, deadline(line)))
+    client::Connection connection(line.server.domain, line.server.profile, subscription);
+    if (!wait_for_server(connection, stop, deadline(line.server)))
         return ExitCode::NoServer;
     Display display(line.json);
     client::Clock::time_point next = client::Clock::now();

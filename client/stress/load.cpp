@@ -3,6 +3,7 @@
 #include <random>
 #include <string>
 
+#include "common/waiting.hpp"
 #include "stress/crew.hpp"
 #include "stress/run.hpp"
 
@@ -23,11 +24,6 @@ constexpr std::chrono::seconds longest_end{45};
 
 /// Of a server, which gives a sign of life twice a second: as long as its simulation may stand still.
 constexpr std::chrono::seconds longest_silence{5};
-
-Clock::duration duration(double seconds)
-{
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 /// Names of regions that no other run has.
 std::string new_run()
@@ -61,8 +57,8 @@ std::vector<Order> orders_of(const Options& options, const wire::Uuid& session)
         order.index = i;
         order.run = run;
         order.session = session;
-        order.domain = options.domain;
-        order.profile = std::uint32_t(options.profile);
+        order.domain = options.server.domain;
+        order.profile = std::uint32_t(options.server.profile);
         order.seed = options.seed + i;
         order.region = options.region;
         order.sleep_ms = options.slow_ms;
@@ -82,7 +78,7 @@ void watch_until(Observer& observer, Crew& crew, Clock::duration patience, const
 {
     const Clock::time_point end = Clock::now() + patience;
     while (!condition() && !stop.stop_requested() && Clock::now() < end) {
-        observer.watch(stop, look_period);
+        observer.wait(stop, look_period);
         crew.poll();
     }
 }
@@ -117,9 +113,7 @@ void describe(Report& report, const client::ServerInfo& server, const Observer& 
 ServerUse observe_rest(Observer& observer, double seconds, const std::stop_token& stop)
 {
     observer.take_samples();
-    const Clock::time_point end = Clock::now() + duration(seconds);
-    while (!stop.stop_requested() && Clock::now() < end)
-        observer.watch(stop, look_period);
+    client::wait_until(observer, stop, Clock::now() + client::from_seconds(seconds), [] { return false; });
     return use_of(observer.take_samples());
 }
 
@@ -131,10 +125,10 @@ Report load(Observer& observer, const Options& options, const ServerUse& rest, c
     if (const std::size_t unready = crew.unready(); unready > 0 && !stop.stop_requested())
         complain(std::to_string(unready) +
                  " clients have not found the server in time; the report has what they saw from then on");
-    watch_until(observer, crew, duration(options.settle_s), stop, [] { return false; });
+    watch_until(observer, crew, client::from_seconds(options.settle_s), stop, [] { return false; });
     observer.take_samples();
     crew.begin(Clock::now());
-    watch_until(observer, crew, duration(options.seconds), stop, [&] {
+    watch_until(observer, crew, client::from_seconds(options.seconds), stop, [&] {
         crew.stop_and_go(Clock::now());
         return options.commands > 0 && crew.commanders_done();
     });

@@ -22,8 +22,8 @@ try {
 } catch (const slod::wire::DdsError& error) {
     slod::stress::complain(error.what());
     return int(error.not_permitted() ? slod::stress::ExitCode::NotPermitted
-                                     : slod::stress::ExitCode::NotHeld);
+                                     : slod::stress::ExitCode::Failure);
 } catch (const std::exception& error) {
     slod::stress::complain(error.what());
-    return int(slod::stress::ExitCode::NotHeld);
+    return int(slod::stress::ExitCode::Failure);
 }

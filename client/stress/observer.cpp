@@ -24,7 +24,7 @@ Observer::Observer(std::uint32_t domain, wire::Profile profile)
     : connection_(domain, profile, {.stats = true})
 {}
 
-void Observer::watch(const std::stop_token& stop, std::chrono::nanoseconds timeout)
+void Observer::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout)
 {
     connection_.wait(stop, timeout);
     if (!session_ && connection_.stats())

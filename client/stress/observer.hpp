@@ -19,7 +19,7 @@ public:
     Observer(std::uint32_t domain, wire::Profile profile);
 
     /// Takes in what comes within `timeout`; returns early when something does.
-    void watch(const std::stop_token& stop, std::chrono::nanoseconds timeout);
+    void wait(const std::stop_token& stop, std::chrono::nanoseconds timeout);
 
     const client::Connection& connection() const { return connection_; }
 

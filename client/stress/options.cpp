@@ -1,6 +1,7 @@
 #include "stress/options.hpp"
 
-#include <algorithm>
+#include "arguments/parsing.hpp"
+
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,6 @@ constexpr std::uint32_t most_clients = 160;
 constexpr double longest_run_s = 86400;
 constexpr double highest_rate_hz = 1000;
 constexpr double most = 1e9;
-constexpr std::uint32_t last_domain = 230; ///< beyond, DDS has no UDP ports
 
 CLI::Option* add_count(CLI::App& app, const char* name, std::uint32_t& value, const char* help)
 {
@@ -120,21 +120,7 @@ void declare(CLI::App& app, Options& options)
     app.add_flag("--json", options.json, "Print the report as one JSON object on the last line, too");
     app.add_option("--picture", options.picture, "Draw latencies and delivered shares, with gnuplot")
         ->option_text("FILE.png");
-    app.add_option("--domain", options.domain, "DDS domain of the server, 0 to 230")
-        ->check(CLI::Range(std::uint32_t{0}, last_domain))
-        ->option_text("N [0]");
-    const auto all = names(wire::Profile{});
-    const std::vector<std::string> profiles(all.begin(), all.end());
-    app.add_option_function<std::string>(
-           "--profile",
-           [&options, profiles](const std::string& name) {
-               const auto found = std::find(profiles.begin(), profiles.end(), name);
-               options.profile = wire::Profile(found - profiles.begin());
-           },
-           "Where to look: loopback (this machine) or lan")
-        ->check(CLI::IsMember(profiles))
-        ->option_text("NAME [loopback]");
-    add_number(app, "--timeout", options.timeout_s, longest_run_s, "S", "Time to wait for a server");
+    client::add_server_options(app, options.server, "Seconds to wait for a server");
     app.set_version_flag("--version", "slod-stress " + std::string(version()));
     declare_subscribers(app, options);
     declare_commanders(app, options);
@@ -160,19 +146,6 @@ std::string problem(const Options& options)
     return {};
 }
 
-ExitCode code_of(const CLI::ParseError& error)
-{
-    switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
-    case CLI::ExitCodes::Success:
-        return ExitCode::Held;
-    case CLI::ExitCodes::ConversionError:
-    case CLI::ExitCodes::ValidationError:
-        return ExitCode::InvalidArgument;
-    default:
-        return ExitCode::Usage;
-    }
-}
-
 } // namespace
 
 std::variant<Options, ExitCode> parse_options(int argc, const char* const* argv)
@@ -186,12 +159,8 @@ std::variant<Options, ExitCode> parse_options(int argc, const char* const* argv)
         "Example: slod-stress --subscribers 16 --slow 2 --commanders 4 --malformed 5 --max-loss 1");
     Options options;
     declare(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        app.exit(error);
-        return code_of(error);
-    }
+    if (const auto code = client::parse(app, argc, argv))
+        return *code;
     if (const std::string wrong = problem(options); !wrong.empty()) {
         complain(wrong);
         return ExitCode::Usage;

@@ -1,25 +1,19 @@
 #pragma once
 
+#include "arguments/server_choice.hpp"
+
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "idl/profile.hpp"
+#include "common/exit_code.hpp"
 #include "stress/limits.hpp"
 #include "stress/order.hpp"
 
 namespace slod::stress {
 
-/// What slod-stress tells its caller; the codes are slodctl's where they mean the same.
-enum class ExitCode : int {
-    Held = 0,
-    NotHeld = 1,          ///< what must be so was not, a limit or anything else; or it could not be tried
-    Usage = 2,            ///< the command line cannot be understood
-    InvalidArgument = 65, ///< it can, but a value in it cannot be right
-    NoServer = 69,
-    NotPermitted = 77, ///< the domain's security forbids it
-};
+using client::ExitCode;
 
 /// What was asked for.
 struct Options {
@@ -36,9 +30,7 @@ struct Options {
     std::uint32_t regions = 1;  ///< of each commander
     double extent = 1;          ///< commanders' regions lie within so far of the origin, in scene lengths
     std::uint64_t seed = 1;
-    std::uint32_t domain = 0;
-    wire::Profile profile = wire::Profile::Loopback;
-    double timeout_s = 3;  ///< for a server
+    client::ServerChoice server;
     std::vector<int> cpus; ///< on which all clients run; empty: any
     bool sweep = false;
     bool json = false;

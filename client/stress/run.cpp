@@ -1,18 +1,16 @@
 #include "stress/run.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <sched.h>
 #include <string>
 
+#include "common/waiting.hpp"
 #include "stress/picture.hpp"
 
 namespace slod::stress {
 
 namespace {
-
-using client::Clock;
 
 /// For this process and those it starts. False where it may not run on each: Linux leaves out those that are
 /// not there.
@@ -26,15 +24,6 @@ bool run_on(const std::vector<int>& cpus)
         CPU_SET(std::size_t(cpu), &asked);
     return sched_setaffinity(0, sizeof asked, &asked) == 0 &&
            sched_getaffinity(0, sizeof given, &given) == 0 && CPU_EQUAL(&asked, &given);
-}
-
-bool find_server(Observer& observer, double timeout_s, const std::stop_token& stop)
-{
-    const Clock::time_point end =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
-    while (!observer.sees_server() && !stop.stop_requested() && Clock::now() < end)
-        observer.watch(stop, std::chrono::milliseconds(20));
-    return observer.sees_server();
 }
 
 /// What would make the figures mean something else; empty when nothing does.
@@ -102,10 +91,10 @@ ExitCode run(const Options& options, const std::stop_token& stop)
                  "name some of those that taskset --cpu-list --pid $$ lists");
         return ExitCode::InvalidArgument;
     }
-    Observer observer(options.domain, options.profile);
-    if (!find_server(observer, options.timeout_s, stop)) {
-        complain(observer.connection().status().reason +
-                 "; start slod-server, name its --domain and --profile, or wait longer with --timeout");
+    Observer observer(options.server.domain, options.server.profile);
+    if (!client::wait_until(observer, stop, deadline(options.server),
+                            [&] { return observer.sees_server(); })) {
+        complain(no_server_sentence(observer.connection().status()));
         return ExitCode::NoServer;
     }
     const std::vector<Report> reports = reports_of(observer, options, stop);
@@ -124,7 +113,7 @@ ExitCode run(const Options& options, const std::stop_token& stop)
     const bool drawn = draw(reports, options);
     if (options.json)
         print_json(reports, options.limits, options.sweep);
-    return held && drawn ? ExitCode::Held : ExitCode::NotHeld;
+    return held && drawn ? ExitCode::Success : ExitCode::Failure;
 }
 
 } // namespace slod::stress

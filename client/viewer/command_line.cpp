@@ -1,10 +1,12 @@
 #include "viewer/command_line.hpp"
 
-#include <algorithm>
+#include "arguments/parsing.hpp"
+
 #include <charconv>
 #include <cstdio>
 #include <stdexcept>
-#include <vector>
+#include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -15,29 +17,7 @@ namespace slod::viewer {
 
 namespace {
 
-constexpr std::uint32_t last_domain = 230;
-constexpr double longest_timeout_s = 86400;
 constexpr int smallest_px = 16, largest_px = 8192;
-
-template <class Enum>
-std::vector<std::string> names_of()
-{
-    const auto all = names(Enum{});
-    return {all.begin(), all.end()};
-}
-
-/// An option whose value is one of an enum's names.
-template <class Enum>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, Enum& target, const std::string& help)
-{
-    const std::vector<std::string> all = names_of<Enum>();
-    const auto take = [all, &target](const std::string& word) {
-        target = Enum(std::find(all.begin(), all.end(), word) - all.begin());
-    };
-    return app.add_option_function<std::string>(name, take, help)
-        ->check(CLI::IsMember(all))
-        ->option_text("NAME [" + all[std::size_t(target)] + "]");
-}
 
 /// Two numbers with `mark` between them.
 template <class Number>
@@ -56,14 +36,8 @@ std::optional<std::pair<Number, Number>> pair_of(const std::string& text, char m
 
 void declare_connection(CLI::App& app, CommandLine& line)
 {
-    app.add_option("--domain", line.domain, "DDS domain of the server, 0 to 230")
-        ->check(CLI::Range(std::uint32_t{0}, last_domain))
-        ->option_text("N [0]");
-    add_choice(app, "--profile", line.profile, "Where to look: loopback (this machine) or lan");
-    app.add_option("--timeout", line.timeout_s,
-                   "With --screenshot: seconds to wait for a server and its frames")
-        ->check(CLI::Range(0.0, longest_timeout_s))
-        ->option_text("SECONDS [3]");
+    client::add_server_options(app, line.server,
+                               "With --screenshot: seconds to wait for a server and its frames");
     app.add_option("--region", line.region, "Show the clusters of this region alone; without it, all")
         ->option_text("NAME");
 }
@@ -91,7 +65,7 @@ void declare_camera(CLI::App& app, CommandLine& line)
 
 void declare_look(CLI::App& app, CommandLine& line)
 {
-    add_choice(app, "--colour-by", line.colours.by, "Colour by speed, mass, count, region or age");
+    client::add_choice(app, "--colour-by", line.colours.by, "Colour by speed, mass, count, region or age");
     app.add_flag("--log", line.colours.logarithmic, "Colours on a logarithmic scale");
     const auto take_range = [&line](const std::string& text) {
         const auto range = pair_of<double>(text, ',');
@@ -154,19 +128,6 @@ void declare(CLI::App& app, CommandLine& line)
     app.set_version_flag("--version", "slod-viewer " + std::string(version()));
 }
 
-ExitCode code_of(const CLI::ParseError& error)
-{
-    switch (static_cast<CLI::ExitCodes>(error.get_exit_code())) {
-    case CLI::ExitCodes::Success:
-        return ExitCode::Success;
-    case CLI::ExitCodes::ConversionError:
-    case CLI::ExitCodes::ValidationError:
-        return ExitCode::InvalidArgument;
-    default:
-        return ExitCode::Usage;
-    }
-}
-
 } // namespace
 
 std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* const* argv)
@@ -180,12 +141,8 @@ std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* con
         "Example: slod-viewer --screenshot galaxy.png --camera \"distance=60 elevation=40\" --log");
     CommandLine line;
     declare(app, line);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        app.exit(error);
-        return code_of(error);
-    }
+    if (const auto code = client::parse(app, argc, argv))
+        return *code;
     try {
         if (!line.camera)
             line.camera = load_camera(line.camera_file);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arguments/server_choice.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -7,7 +9,6 @@
 #include <variant>
 
 #include "common/exit_code.hpp"
-#include "idl/profile.hpp"
 #include "view/camera.hpp"
 #include "view/colour_scale.hpp"
 
@@ -17,9 +18,7 @@ using client::ExitCode;
 
 /// What was asked for.
 struct CommandLine {
-    double timeout_s = 3; ///< without a screen: for a server, and for its frames
-    std::uint32_t domain = 0;
-    wire::Profile profile = wire::Profile::Loopback;
+    client::ServerChoice server;
     std::string region; ///< the only one whose clusters are shown; empty: all
 
     std::optional<view::Camera> camera; ///< named, or read from the camera file

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/connection.hpp"
+#include "common/waiting.hpp"
 #include "view/scene_bounds.hpp"
 #include "viewer/offscreen.hpp"
 #include "viewer/picture_file.hpp"
@@ -12,25 +13,9 @@ namespace slod::viewer {
 
 namespace {
 
-using client::Clock;
-
 void complain(const std::string& sentence)
 {
     std::fprintf(stderr, "slod-viewer: %s\n", sentence.c_str());
-}
-
-/// Waits until `arrived()`; false when `end` or a stop came first.
-template <class Condition>
-bool wait_until(client::Connection& connection, const std::stop_token& stop, Clock::time_point end,
-                const Condition& arrived)
-{
-    while (!arrived()) {
-        const Clock::time_point now = Clock::now();
-        if (now >= end || stop.stop_requested())
-            return false;
-        connection.wait(stop, end - now);
-    }
-    return true;
 }
 
 std::vector<OutlinedRegion> outlines(const client::Connection::Regions& regions, const view::Camera& camera)
@@ -73,14 +58,12 @@ void draw(const CommandLine& line, const client::Connection& connection)
 
 ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.domain, line.profile,
+    client::Connection connection(line.server.domain, line.server.profile,
                                   {.clusters = true, .regions = true, .region = line.region});
-    const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                     std::chrono::duration<double>(line.timeout_s));
+    const client::Clock::time_point end = deadline(line.server);
     const auto present = [&] { return connection.status().contact != client::Contact::NoServer; };
     if (!wait_until(connection, stop, end, present)) {
-        complain(connection.status().reason +
-                 "; start slod-server, name its --domain and --profile, or wait longer with --timeout");
+        complain(no_server_sentence(connection.status()));
         return ExitCode::NoServer;
     }
     const client::ServerInfo& server = *connection.server();

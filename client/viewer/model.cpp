@@ -21,7 +21,7 @@ std::array<double, 3> array_of(const view::Vector& from)
 } // namespace
 
 Model::Model(const CommandLine& line)
-    : connection(line.domain, line.profile,
+    : connection(line.server.domain, line.server.profile,
                  {.stats = true, .clusters = true, .regions = true, .region = line.region}),
       alarms(connection.participant()),
       steering(connection.participant(), viewer_name(line)), look{.camera =
