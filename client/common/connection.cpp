@@ -79,14 +79,13 @@ Status Connection::status() const
 void Connection::take_states()
 {
     const Clock::time_point now = Clock::now();
-    state_reader_.take_each(samples_per_poll,
-                            [&](const wire::ServerState& state, const dds_sample_info_t& info) {
-                                if (info.valid_data)
-                                    watch_.on_state(state, now);
-                                if (info.instance_state != DDS_IST_ALIVE)
-                                    watch_.on_gone(wire::uuid_of(state.session),
-                                                   info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED, now);
-                            });
+    state_reader_.take_each(samples_per_poll, [&](const wire::ServerState& state,
+                                                  const dds_sample_info_t& info) {
+        if (info.valid_data)
+            watch_.on_state(state, now);
+        if (info.instance_state != DDS_IST_ALIVE)
+            watch_.on_gone(wire::uuid_of(state.session), info.instance_state == DDS_IST_NOT_ALIVE_DISPOSED);
+    });
     follow_session();
 }
 

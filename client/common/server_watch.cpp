@@ -36,7 +36,7 @@ void ServerWatch::on_state(const wire::ServerState& state, Clock::time_point now
     choose();
 }
 
-void ServerWatch::on_gone(const wire::Uuid& session, bool took_leave, Clock::time_point)
+void ServerWatch::on_gone(const wire::Uuid& session, bool took_leave)
 {
     const auto found = known_.find(session);
     if (found == known_.end())

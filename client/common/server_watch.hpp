@@ -41,7 +41,7 @@ public:
     void on_state(const wire::ServerState& state, Clock::time_point now);
 
     /// A server is no longer heard. `took_leave`: it said so itself.
-    void on_gone(const wire::Uuid& session, bool took_leave, Clock::time_point now);
+    void on_gone(const wire::Uuid& session, bool took_leave);
 
     Status status(Clock::time_point now) const;
 

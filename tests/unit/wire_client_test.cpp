@@ -85,11 +85,11 @@ TEST(WireClientWatch, TheReasonTellsAKilledServerFromAStoppedOne)
 {
     ServerWatch killed;
     killed.on_state(state(first_session, 7), start);
-    killed.on_gone(first_session, false, start + 1s);
+    killed.on_gone(first_session, false);
     ServerWatch stopped;
     stopped.on_state(state(first_session, 7), start);
-    stopped.on_gone(first_session, true, start + 1s);
-    stopped.on_gone(first_session, false, start + 2s); // its silence, afterwards
+    stopped.on_gone(first_session, true);
+    stopped.on_gone(first_session, false); // its silence, afterwards
     EXPECT_EQ(killed.status(start + 2s).contact, Contact::NoServer);
     EXPECT_EQ(stopped.status(start + 2s).contact, Contact::NoServer);
     EXPECT_NE(killed.status(start + 2s).reason.find("silent"), std::string::npos);
@@ -100,7 +100,7 @@ TEST(WireClientWatch, ARestartedServerIsFollowed)
 {
     ServerWatch watch;
     watch.on_state(state(first_session, 7), start);
-    watch.on_gone(first_session, false, start + 1s);
+    watch.on_gone(first_session, false);
     watch.on_state(state(second_session, 1), start + 2s);
     EXPECT_EQ(watch.status(start + 2s).contact, Contact::Live);
     EXPECT_EQ(watch.server()->session, second_session);
@@ -121,7 +121,7 @@ TEST(WireClientWatch, ASilentServerThatSpeaksAgainIsLive)
 {
     ServerWatch watch;
     watch.on_state(state(first_session, 7), start);
-    watch.on_gone(first_session, false, start + 1s);
+    watch.on_gone(first_session, false);
     watch.on_state(state(first_session, 8), start + 3s);
     EXPECT_EQ(watch.status(start + 3s).contact, Contact::Live);
 }
