@@ -2,6 +2,20 @@
 
 namespace slod::client {
 
+std::string_view word_of(slod_v1_Severity severity)
+{
+    switch (severity) {
+    case slod_v1_SEVERITY_INFO:
+        return "info";
+    case slod_v1_SEVERITY_WARNING:
+        return "warning";
+    case slod_v1_SEVERITY_ERROR:
+        return "error";
+    default:
+        return "unknown";
+    }
+}
+
 void AlarmBoard::poll()
 {
     constexpr int alarms_per_poll = 64;

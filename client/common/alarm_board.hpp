@@ -2,11 +2,15 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "idl/dds.hpp"
 
 namespace slod::client {
+
+/// The word of a severity: "info", "warning", "error".
+std::string_view word_of(slod_v1_Severity severity);
 
 /// A server's present alarms. Call it from one thread.
 class AlarmBoard {

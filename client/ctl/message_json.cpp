@@ -1,8 +1,6 @@
 #include "ctl/message_json.hpp"
 
-#include <array>
-#include <string_view>
-
+#include "common/alarm_board.hpp"
 #include "common/commander.hpp"
 
 namespace slod::ctl {
@@ -147,11 +145,9 @@ Json json_of(const wire::ErrorEstimate& message)
 
 Json json_of(const wire::Alarm& message)
 {
-    constexpr std::array<std::string_view, 3> severities = {"info", "warning", "error"};
-    const auto severity = std::size_t(message.severity);
     return {{"session", uuid(message.session)},
             {"name", message.name},
-            {"severity", severity < severities.size() ? Json(severities[severity]) : Json(severity)},
+            {"severity", client::word_of(message.severity)},
             {"first_frame", message.first_frame},
             {"last_frame", message.last_frame},
             {"occurrences", message.occurrences},

@@ -27,7 +27,8 @@ void draw_alarms(const Model& model)
 {
     for (const auto& [key, alarm] : model.alarms.entries())
         if (model.connection.server() && key.first == model.connection.server()->session)
-            ImGui::TextWrapped("%s: %s", key.second.c_str(), alarm.text.c_str());
+            ImGui::TextWrapped("%s %s: %s", client::word_of(alarm.severity).data(), key.second.c_str(),
+                               alarm.text.c_str());
 }
 
 void draw_traffic(const Model& model)
