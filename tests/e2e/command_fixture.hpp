@@ -82,4 +82,6 @@ protected:
     nlohmann::json answer;
 };
 
+class Commands : public CommandTest {};
+
 } // namespace slod
