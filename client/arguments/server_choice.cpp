@@ -16,11 +16,11 @@ void add_server_options(CLI::App& app, ServerChoice& server, const std::string& 
 {
     app.add_option("--domain", server.domain,
                    "DDS domain of the server, 0 to " + std::to_string(wire::last_domain))
-        ->check(CLI::Range(std::uint32_t{0}, wire::last_domain))
+        ->check(between<std::uint32_t>(0, wire::last_domain))
         ->option_text("N [0]");
     add_choice(app, "--profile", server.profile, "Where to look: loopback (this machine) or lan");
     app.add_option("--timeout", server.timeout_s, timeout_help)
-        ->check(CLI::Range(0.0, longest_timeout_s))
+        ->check(between(0.0, longest_timeout_s))
         ->option_text("SECONDS [3]");
 }
 

@@ -1,5 +1,7 @@
 #include "ctl/commands.hpp"
 
+#include "arguments/parsing.hpp"
+
 #include <array>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +17,7 @@ void declare_nothing(CLI::App&, CommandLine&) {}
 void declare_watch(CLI::App& app, CommandLine& line)
 {
     app.add_option("--count", line.count, "End after so many updates; without it, on Ctrl-C")
-        ->check(CLI::PositiveNumber)
+        ->check(client::at_least_one())
         ->option_text("N");
     app.add_flag("--clusters", line.clusters,
                  "Receive the cluster states too; show their rate, latency, loss");
@@ -40,7 +42,7 @@ void declare_traffic(CLI::App& app, CommandLine& line)
 {
     declare_topic(app, line);
     app.add_option("--count", line.count, "End after so many seconds; without it, on Ctrl-C")
-        ->check(CLI::PositiveNumber)
+        ->check(client::at_least_one())
         ->option_text("N");
 }
 
@@ -50,7 +52,7 @@ void declare_echo(CLI::App& app, CommandLine& line)
     CLI::Option* const count =
         app.add_option("--count", line.count,
                        "End after so many samples, which must come within --timeout; without it, on Ctrl-C")
-            ->check(CLI::PositiveNumber)
+            ->check(client::at_least_one())
             ->option_text("N");
     app.add_flag_callback(
            "--once", [&line] { line.count = 1; }, "End after one sample")
@@ -73,7 +75,7 @@ constexpr std::array all_commands{
     CommandEntry{"roi", "List, show, add, move, resize, set and remove regions of interest.", declare_roi,
                  run_roi},
     CommandEntry{"pause", "Stop the passage of scene time.", declare_simple, run_steering},
-    CommandEntry{"resume", "Let it go on.", declare_simple, run_steering},
+    CommandEntry{"resume", "Let a paused scene go on.", declare_simple, run_steering},
     CommandEntry{"step", "Run some frames while paused.", declare_step, run_steering},
     CommandEntry{"set", "Change settings of the running scene.", declare_set, run_steering},
     CommandEntry{"stop", "End the server in order.", declare_simple, run_steering},

@@ -1,5 +1,7 @@
 #include "ctl/declarations.hpp"
 
+#include "arguments/parsing.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -92,7 +94,7 @@ CLI::App* change_action(CLI::App& app, CommandLine& line, const std::string& nam
     CLI::App* const sub = region_action(app, line, name, help, kind);
     sub->add_option("--if-revision", line.request.if_revision,
                     "Refuse unless the region is at this revision: nobody else changed it")
-        ->check(CLI::PositiveNumber)
+        ->check(client::at_least_one())
         ->option_text("N");
     return sub;
 }
@@ -113,12 +115,13 @@ void declare_add(CLI::App& app, CommandLine& line)
     CLI::Option* const half_extent =
         add_vector(add, "--half-extent", request.half_extent, "Half the sides of a box, which it makes it");
     CLI::Option* const radius = add_radius(add, request)->excludes(half_extent);
-    add_settings(add, "--set", request, "A setting as in [[region]] of a scene, KEY=VALUE; may be repeated")
+    add_settings(add, "--set", request, "A setting as in [[region]] of a scene; may be repeated")
         ->type_size(1)
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->option_text("KEY=VALUE");
     add.add_option("--lease", request.lease_s,
                    "Remove it after so many seconds: nobody can renew it from here")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(client::between(0.0, 1e6))
         ->option_text("SECONDS");
     add.callback([&request, centre, half_extent, radius] {
         request.kind = "add_roi";
@@ -149,7 +152,9 @@ void declare_simple(CLI::App& app, CommandLine& line)
 void declare_step(CLI::App& app, CommandLine& line)
 {
     line.request.frames = 1;
-    app.add_option("N", line.request.frames, "Frames to run [1]")->check(CLI::PositiveNumber);
+    app.add_option("N", line.request.frames, "Frames to run")
+        ->check(client::at_least_one())
+        ->option_text("[1]");
     declare_simple(app, line);
 }
 
@@ -166,7 +171,6 @@ void declare_set(CLI::App& app, CommandLine& line)
 void declare_roi(CLI::App& app, CommandLine& line)
 {
     CommandRequest& request = line.request;
-    app.require_subcommand(1);
     action(app, line, "list", "Print all regions, one line each, in the order of their names.", "");
     region_action(app, line, "show", "Print one region.", "");
     declare_add(app, line);

@@ -90,7 +90,9 @@ ExitCode measure_topic(const CommandLine& line, const std::stop_token& stop)
     }
     if (meter.report(client::Clock::now()).received > 0)
         return ExitCode::Success;
-    complain("no sample came in that time; name a region that there is, or measure longer with --count");
+    complain(
+        "no sample came in that time: is there such a region, and does this server write the topic? Measure "
+        "longer with --count");
     return ExitCode::TimedOut;
 }
 

@@ -21,7 +21,7 @@ constexpr double most = 1e9;
 CLI::Option* add_count(CLI::App& app, const char* name, std::uint32_t& value, const char* help)
 {
     return app.add_option(name, value, help)
-        ->check(CLI::Range(std::uint32_t{0}, most_clients))
+        ->check(client::between<std::uint32_t>(0, most_clients))
         ->option_text("N [" + std::to_string(value) + "]");
 }
 
@@ -33,14 +33,17 @@ CLI::Option* add_number(CLI::App& app, const char* name, double& value, double m
     if (preset.back() == '.')
         preset.pop_back();
     return app.add_option(name, value, help)
-        ->check(CLI::Range(0.0, maximum))
+        ->check(client::between(0.0, maximum))
         ->option_text(std::string(unit) + " [" + preset + "]");
 }
 
 void add_limit(CLI::App& app, const char* name, std::optional<double>& value, const char* unit,
                const char* help)
 {
-    app.add_option(name, value, help)->check(CLI::Range(-most, most))->option_text(unit)->group("Limits");
+    app.add_option(name, value, help)
+        ->check(client::between(-most, most))
+        ->option_text(unit)
+        ->group("Limits");
 }
 
 void declare_subscribers(CLI::App& app, Options& options)
@@ -114,7 +117,7 @@ void declare(CLI::App& app, Options& options)
                  "Runs with 1, 2, 4 and so on up to --subscribers: where this machine's bandwidth ends");
     app.add_option("--cpus", options.cpus, "Processors that the clients run on, from 0")
         ->delimiter(',')
-        ->check(CLI::Range(0, 1023))
+        ->check(client::between(0, 1023))
         ->option_text("LIST");
     app.add_option("--seed", options.seed, "Of all that is random")->option_text("N [1]");
     app.add_flag("--json", options.json, "Print the report as one JSON object on the last line, too");

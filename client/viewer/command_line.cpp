@@ -78,7 +78,7 @@ void declare_look(CLI::App& app, CommandLine& line)
            "--range", take_range, "What the ends of the colours stand for; without it, the values at hand")
         ->option_text("LOW,HIGH");
     app.add_option("--exposure", line.exposure, "Brightness; without it, by the light that there is")
-        ->check(CLI::Range(1e-6, 1e6))
+        ->check(client::between(1e-6, 1e6))
         ->option_text("FACTOR [1]");
     app.add_flag_callback(
         "--no-outlines", [&line] { line.outlines = false; }, "Do not draw the regions of interest");
@@ -118,7 +118,7 @@ void declare(CLI::App& app, CommandLine& line)
             ->option_text("FILE")
             ->excludes(follow);
     app.add_option("--frames", line.frames, "With --screenshot: complete frames to wait for")
-        ->check(CLI::PositiveNumber)
+        ->check(client::at_least_one())
         ->needs(screenshot)
         ->option_text("N [1]");
     app.add_option("--from-frame", line.from_frame,

@@ -193,7 +193,7 @@ Answer CommandDesk::add_roi(const Request& request)
 {
     if (!is_name(request.region))
         return refusal(slod_v1_RESULT_INVALID, "region",
-                       "This is no name; use 1 to 32 of a-z, 0-9, _ and -.");
+                       "This is no name of a region; use 1 to 32 of a-z, 0-9, _ and -.");
     if (editor_.find(request.region))
         return refusal(slod_v1_RESULT_REGION_EXISTS, "region",
                        "There is a region " + request.region +

@@ -1,5 +1,7 @@
 #include "app/command_line.hpp"
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -30,26 +32,36 @@ struct Shorthands {
 
 void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
 {
-    auto* scene = app.add_option("SCENE", line.scene, "Scene file (TOML)");
-    auto* input = app.add_option("--input", line.input, "Initial conditions, instead of the scene's own");
+    auto* scene = app.add_option("SCENE", line.scene, "Scene file (TOML)")->option_text("FILE");
+    auto* input = app.add_option("--input", line.input, "Initial conditions, instead of the scene's own")
+                      ->option_text("FILE");
     auto* frames = app.add_option("--frames", line.frames, "Frames to run; without it, until stopped")
-                       ->check(CLI::PositiveNumber);
-    auto* settings =
-        app.add_option("--set", line.settings, "table.key=value over the scene's; may be repeated")
-            ->type_size(1)
-            ->allow_extra_args(false);
-    app.add_option("--replay", line.replay, "Input log to run again; fails unless the outcome is the same")
+                       ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+                       ->option_text("N");
+    auto* settings = app.add_option("--set", line.settings,
+                                    "A setting, table.key=value, over the scene's; may be repeated")
+                         ->type_size(1)
+                         ->allow_extra_args(false)
+                         ->option_text("KEY=VALUE");
+    app.add_option("--replay", line.replay,
+                   "Input log to run again, instead of SCENE, --input, --frames and --set; fails unless the "
+                   "outcome is the same")
+        ->option_text("FILE")
         ->excludes(scene)
         ->excludes(input)
         ->excludes(frames)
         ->excludes(settings);
     app.add_flag("--free-run", line.free_run, "Run as fast as possible instead of at server.frame_rate");
-    app.add_option("--threads", shorthands.threads, "Short for --set server.threads=N; 0 is one per core");
+    app.add_option("--threads", shorthands.threads, "Short for --set server.threads=N; 0 is one per core")
+        ->option_text("N");
     app.add_flag("--no-dds", shorthands.no_dds, "Short for --set wire.enabled=false");
-    app.add_option("--domain", shorthands.domain, "Short for --set wire.domain=N");
-    app.add_option("--report", line.report, "Write figures of the run, as JSON, at its end");
-    app.add_option("--picture", line.picture, "Write a density map of the last state, as PNG");
-    app.add_option("--output-dir", line.output_folder, "Write the input log here, for --replay");
+    app.add_option("--domain", shorthands.domain, "Short for --set wire.domain=N")->option_text("N");
+    app.add_option("--report", line.report, "Write figures of the run, as JSON, at its end")
+        ->option_text("FILE");
+    app.add_option("--picture", line.picture, "Write a density map of the last state, as PNG")
+        ->option_text("FILE");
+    app.add_option("--output-dir", line.output_folder, "Write the input log here, for --replay")
+        ->option_text("FOLDER");
     app.add_flag("--explain", line.explain, "Print what the scene comes down to, and run nothing");
     app.add_flag("--check", line.check,
                  "Read scene and initial conditions, say whether they are sound, run nothing");
@@ -63,7 +75,9 @@ void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
 std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* const* argv)
 {
     CLI::App app("Simulates a scene of particles in real time and publishes it over DDS.", "slod-server");
-    app.footer("Exit codes: 0 done, 1 failed, 2 wrong usage, scene or initial conditions.");
+    app.footer("Ctrl-C or SIGTERM ends a run in order.\n"
+               "Exit codes: 0 done, 1 failed, 2 wrong usage, scene or initial conditions.\n"
+               "Example: slod-server config/scenes/galaxy.toml --free-run --frames 300 --picture galaxy.png");
     CommandLine line;
     Shorthands shorthands;
     declare(app, line, shorthands);

@@ -129,6 +129,9 @@ std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& fil
             else
                 read_line(line, log);
         }
+    } catch (const Json::exception& error) {
+        return Problems{file.string() + ":" + std::to_string(line_number) +
+                        ": no line of an input log: " + error.what()};
     } catch (const std::exception& error) {
         return Problems{file.string() + ":" + std::to_string(line_number) + ": " + error.what()};
     }

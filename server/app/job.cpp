@@ -103,7 +103,7 @@ std::variant<Job, Problems> load_job(const CommandLine& line)
 
 std::string soundness(const Job& job)
 {
-    return fmt::format("{} is sound: \"{}\", {} particles at the start, {}", job.origin.scene_name,
+    return fmt::format("{} is sound: \"{}\", {} particles at the start. {}", job.origin.scene_name,
                        job.scene.title, job.initial.particles.size(), job.initial.source);
 }
 

@@ -62,6 +62,8 @@ TEST(Arguments, TheExitCodeTellsAWrongValueFromAWrongUsage)
         EXPECT_EQ(program.reads(wrong), ExitCode::InvalidArgument) << wrong[1];
         EXPECT_NE(program.printed.find(wrong[0]), std::string::npos) << program.printed;
     }
+    EXPECT_EQ(program.reads({"--timeout", "nan"}), ExitCode::InvalidArgument);
+    EXPECT_NE(program.printed.find("nan is no number from 0 to 86400"), std::string::npos) << program.printed;
     EXPECT_EQ(program.reads({"--lunch"}), ExitCode::Usage);
     EXPECT_EQ(program.reads({"--domain"}), ExitCode::Usage);
 }
