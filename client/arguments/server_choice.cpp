@@ -35,4 +35,15 @@ std::string no_server_sentence(const Status& status)
            "; start slod-server, name its --domain and --profile, or wait longer with --timeout";
 }
 
+std::string no_news_sentence(const std::string& missing, const Connection& connection)
+{
+    const Status status = connection.status();
+    std::string remedy = "wait longer with --timeout";
+    if (status.contact == Contact::NoServer)
+        remedy = "start it again";
+    else if (connection.server()->paused)
+        remedy = "let it go on with slodctl resume";
+    return missing + (status.reason.empty() ? "" : ": " + status.reason) + "; " + remedy;
+}
+
 } // namespace slod::client

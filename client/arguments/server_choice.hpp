@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "common/server_watch.hpp"
+#include "common/connection.hpp"
 #include "idl/profile.hpp"
 
 namespace CLI {
@@ -27,5 +27,9 @@ Clock::time_point deadline(const ServerChoice& server);
 
 /// What to tell a user whose client found no server: why, and what helps.
 std::string no_server_sentence(const Status& status);
+
+/// What to tell a user whose client found one and did not get what it waited for: that, which is how the
+/// sentence begins, why, and what helps.
+std::string no_news_sentence(const std::string& missing, const Connection& connection);
 
 } // namespace slod::client

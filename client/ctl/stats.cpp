@@ -29,9 +29,7 @@ ExitCode run_stats(const CommandLine& line, const std::stop_token& stop)
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
     if (!wait_until(connection, stop, end, [&] { return connection.stats() != nullptr; })) {
-        const std::string reason = connection.status().reason;
-        complain("no statistics came in time" + (reason.empty() ? "" : ": " + reason) +
-                 "; wait longer with --timeout");
+        complain(no_news_sentence("no statistics came in time", connection));
         return ExitCode::TimedOut;
     }
     const Json all = json_of(*connection.stats());

@@ -94,8 +94,12 @@ ExitCode run(const Options& options, const std::stop_token& stop)
     Observer observer(options.server.domain, options.server.profile);
     if (!client::wait_until(observer, stop, deadline(options.server),
                             [&] { return observer.sees_server(); })) {
-        complain(no_server_sentence(observer.connection().status()));
-        return ExitCode::NoServer;
+        const client::Connection& connection = observer.connection();
+        const client::Status status = connection.status();
+        const bool absent = status.contact == client::Contact::NoServer;
+        complain(absent ? no_server_sentence(status)
+                        : no_news_sentence("no statistics came in time", connection));
+        return absent ? ExitCode::NoServer : ExitCode::TimedOut;
     }
     const std::vector<Report> reports = reports_of(observer, options, stop);
     if (const std::string warning = caveat(options, observer.connection(), reports.front().rest);

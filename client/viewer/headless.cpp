@@ -28,14 +28,6 @@ std::vector<OutlinedRegion> outlines(const client::Connection::Regions& regions,
     return made;
 }
 
-/// What helps when frames do not come.
-std::string remedy(const client::Connection& connection)
-{
-    if (connection.status().contact == client::Contact::NoServer)
-        return "start it again";
-    return connection.server()->paused ? "let it go on with slodctl resume" : "wait longer with --timeout";
-}
-
 void draw(const CommandLine& line, const client::Connection& connection)
 {
     const client::ClusterFrame& frame = *connection.frame();
@@ -74,11 +66,10 @@ ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
                connection.knows_all_regions();
     };
     if (!wait_until(connection, stop, end, [&] { return complete() || !present(); }) || !complete()) {
-        const client::Status status = connection.status();
-        complain(std::to_string(connection.complete_frames()) +
-                 " frames came in time, and not those asked for" +
-                 (status.reason.empty() ? "" : ": " + status.reason) + "; " + remedy(connection));
-        return status.contact == client::Contact::NoServer ? ExitCode::NoServer : ExitCode::TimedOut;
+        complain(no_news_sentence(std::to_string(connection.complete_frames()) +
+                                      " frames came in time, and not those asked for",
+                                  connection));
+        return present() ? ExitCode::TimedOut : ExitCode::NoServer;
     }
     if (!line.region.empty() && !connection.regions().contains(line.region)) {
         complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
