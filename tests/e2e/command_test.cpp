@@ -213,6 +213,7 @@ TEST_F(Commands, NothingIsInForceFromAFrameThatNeverRuns)
 TEST_F(Commands, AReplayHasWhatWasChangedBeforeThePauseThatWasTheEnd)
 {
     Child running(server());
+    ASSERT_EQ(control({"stats"}), 0) << "a run without a frame cannot be repeated";
     ASSERT_EQ(control({"pause"}), 0);
     ASSERT_EQ(control({"roi", "add", "late", "--radius", "1"}), 0);
     ASSERT_EQ(control({"stop"}), 0);

@@ -92,10 +92,11 @@ TEST_F(Stress, CommandsThatNoClientShouldSendAreEachAnsweredAndChangeNothing)
     const char* const asked = std::getenv("SLOD_STRESS_COMMANDS");
     const std::string count = asked ? asked : "2000";
     Child running(server());
-    ASSERT_EQ(load({"--subscribers", "0",   "--commanders", "4",   "--storm",     "20", "--malformed", "400",
-                    "--duplicates",  "150", "--reordered",  "150", "--impostors", "50", "--seconds",   "3600",
-                    "--baseline",    "0",   "--commands",   count}),
-              0)
+    ASSERT_EQ(
+        load({"--subscribers", "0",   "--commanders", "4",   "--storm",     "20",  "--malformed", "400",
+              "--duplicates",  "150", "--reordered",  "150", "--impostors", "400", "--seconds",   "3600",
+              "--baseline",    "0",   "--commands",   count}),
+        0)
         << said;
     const json& rough = report.at("commands").at("rough");
     EXPECT_GE(rough.at("commands").get<int>() + report.at("commands").at("valid").at("commands").get<int>(),
