@@ -75,6 +75,14 @@ void assign(ServerStats& to, const wire::Stats& from)
     to.conserved_measured = from.conserved_measured;
     to.conserved = conserved_of(from.conserved);
     to.drift = conserved_of(from.drift);
+    to.control = {.mode = from.control.mode,
+                  .state = from.control.state,
+                  .target_ms = from.control.target_ms,
+                  .decisions = from.control.decisions,
+                  .cluster_size = from.control.cluster_size,
+                  .breadth = from.control.breadth,
+                  .opening = from.control.opening,
+                  .life = from.control.life};
     to.wire = from.wire;
 }
 
@@ -97,6 +105,8 @@ void assign(RegionInfo& to, const wire::RoiState& from)
     to.precedence = from.precedence;
     to.max_cluster_size = from.max_cluster_size;
     to.max_breadth = from.max_breadth;
+    to.present_max_cluster_size = from.present_max_cluster_size;
+    to.present_max_breadth = from.present_max_breadth;
     to.settings.clear();
     for (const wire::Assignment& assignment : wire::span_of(from.settings))
         to.settings.emplace_back(assignment.setting, assignment.value);

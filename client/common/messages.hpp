@@ -43,6 +43,14 @@ struct Conserved {
     double potential_energy = 0;
 };
 
+/// What holds the frame rate.
+struct Control {
+    std::string mode, state;
+    double target_ms = 0;
+    std::uint64_t decisions = 0;
+    double cluster_size = 1, breadth = 1, opening = 1, life = 1;
+};
+
 struct ServerStats {
     std::uint64_t frame = 0;
     double time = 0;
@@ -55,6 +63,7 @@ struct ServerStats {
     std::vector<std::pair<std::string, std::uint64_t>> counts;
     bool conserved_measured = false;
     Conserved conserved, drift;
+    Control control;
     wire::PublisherCounts wire{};
 };
 
@@ -71,6 +80,7 @@ struct RegionInfo {
     std::string follows;
     std::int32_t precedence = 0;
     double max_cluster_size = 0, max_breadth = 0;
+    double present_max_cluster_size = 0, present_max_breadth = 0;
     std::vector<std::pair<std::string, std::string>> settings; ///< the other ones, values in TOML
     wire::Uuid owner{};
     double lease_s = 0;

@@ -134,6 +134,15 @@ Json json_of(const client::ServerStats& stats)
         json["conserved"] = json_of(stats.conserved);
         json["drift"] = json_of(stats.drift);
     }
+    const client::Control& control = stats.control;
+    json["control"] = {{"mode", control.mode},
+                       {"state", control.state},
+                       {"target_ms", control.target_ms},
+                       {"decisions", control.decisions},
+                       {"cluster_size", control.cluster_size},
+                       {"breadth", control.breadth},
+                       {"opening", control.opening},
+                       {"life", control.life}};
     json["wire"] = json_of(stats.wire);
     return json;
 }
@@ -168,7 +177,9 @@ Json json_of(const client::RegionInfo& region)
                  {"follows", region.follows},
                  {"precedence", region.precedence},
                  {"max_cluster_size", region.max_cluster_size},
-                 {"max_breadth", number(region.max_breadth)}};
+                 {"max_breadth", number(region.max_breadth)},
+                 {"present_max_cluster_size", region.present_max_cluster_size},
+                 {"present_max_breadth", number(region.present_max_breadth)}};
     for (const auto& [name, value] : region.settings)
         json["settings"][name] = value;
     json["owner"] = region.owner == wire::Uuid{} ? "" : wire::to_string(region.owner);

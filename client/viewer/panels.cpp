@@ -139,6 +139,9 @@ void draw_performance_panel(const Model& model)
                 ImGui::Text("target    as fast as it goes");
             ImGui::Text("particles %llu", static_cast<unsigned long long>(stats->particles));
             ImGui::Text("clusters  %llu", static_cast<unsigned long long>(stats->clusters));
+            if (stats->control.target_ms > 0)
+                ImGui::Text("sizes     times %.3g, %s", stats->control.cluster_size,
+                            stats->control.state.c_str());
         }
         plot(model.history, "frame rate", "frame_rate_hz", "Hz");
         plot(model.history, "real time factor", "real_time_factor", "");

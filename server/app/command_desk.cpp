@@ -56,6 +56,11 @@ bool says_where(const Request& request)
            }));
 }
 
+bool of_loop(const Assignment& assignment)
+{
+    return assignment.key.starts_with("server.") || assignment.key.starts_with("control.");
+}
+
 /// What a region looks like to a view.
 RegionOfInterest following(const RegionOfInterest& region, const ClientView& view)
 {
@@ -177,6 +182,8 @@ Answer CommandDesk::set(const Request& request)
 {
     if (request.settings.empty())
         return refusal(slod_v1_RESULT_INVALID, "settings", "Nothing is set; name a table.key and a value.");
+    if (of_loop(request.settings.front()))
+        return set_loop(request);
     Request asked = request;
     asked.region = are_of_background(request.settings) ? background_name : std::string_view();
     if (asked.region.empty() && request.if_revision != 0)
@@ -187,6 +194,28 @@ Answer CommandDesk::set(const Request& request)
     if (const Problems found = editor_.set(request.settings, frame_); !found.empty())
         return refusal(found);
     return applied(asked);
+}
+
+Answer CommandDesk::set_loop(const Request& request)
+{
+    if (request.if_revision != 0)
+        return no_revision();
+    const auto other = std::find_if_not(request.settings.begin(), request.settings.end(), of_loop);
+    if (other != request.settings.end())
+        return refusal(slod_v1_RESULT_INVALID, other->key,
+                       other->key + " is set by itself; give " + request.settings.front().key +
+                           " in a command of its own.");
+    LoopSettings wanted = loop_;
+    Problems found = assign_fields(wanted, request.settings);
+    for (const std::string& problem : problems(wanted.control))
+        found.push_back("control." + problem);
+    if (wanted.server.threads != loop_.server.threads || wanted.server.isa != loop_.server.isa)
+        found.push_back("server has nothing but frame_rate that can change while the scene runs; start the "
+                        "server with the others.");
+    if (!found.empty())
+        return refusal(found);
+    loop_ = wanted;
+    return applied({});
 }
 
 Answer CommandDesk::add_roi(const Request& request)

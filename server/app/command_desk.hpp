@@ -26,10 +26,12 @@ public:
     struct Options {
         std::size_t max_clients = 256; ///< whose answers are remembered; more are refused for a while
         bool read_only = false;        ///< nothing that changes the outcome is applied: a replay
+        LoopSettings loop{};           ///< at the start
     };
 
     CommandDesk(Simulation& simulation, const Options& options)
-        : editor_(simulation), memory_(options.max_clients), read_only_(options.read_only)
+        : editor_(simulation), loop_(options.loop), memory_(options.max_clients),
+          read_only_(options.read_only)
     {}
 
     /// Applies a request unless it was before, and answers it. `frame` is the first that will have it.
@@ -46,6 +48,7 @@ public:
     void expire_leases(std::uint64_t frame, Clock::time_point now);
 
     SceneEditor& editor() { return editor_; }
+    const LoopSettings& loop() const { return loop_; } ///< as they were set last
     RunControl& control() { return control_; }
     const RunControl& control() const { return control_; }
 
@@ -67,12 +70,14 @@ private:
     Answer remove_roi(const Request& request);
     Answer checkpoint(const Request& request);
 
+    Answer set_loop(const Request& request);
     /// Why the request may not touch the region it names; none when it may.
     std::optional<Answer> objection(const Request& request) const;
     Answer change(const Request& request, const std::vector<Assignment>& settings);
     Answer applied(const Request& request) const;
 
     SceneEditor editor_;
+    LoopSettings loop_;
     RunControl control_;
     AnswerMemory memory_;
     Leases leases_;

@@ -58,6 +58,8 @@ void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
     app.add_option("--domain", shorthands.domain, "Short for --set wire.domain=N")->option_text("N");
     app.add_option("--report", line.report, "Write figures of the run, as JSON, at its end")
         ->option_text("FILE");
+    app.add_option("--trace", line.trace, "Write a line for each frame, as CSV, as the run goes")
+        ->option_text("FILE");
     app.add_option("--picture", line.picture, "Write a density map of the last state, as PNG")
         ->option_text("FILE");
     app.add_option("--output-dir", line.output_folder, "Write the input log here, for --replay")

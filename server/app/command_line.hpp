@@ -26,6 +26,7 @@ struct CommandLine {
     bool free_run = false;               ///< as fast as possible, without the pacer
     std::filesystem::path report;        ///< JSON
     std::filesystem::path picture;       ///< PNG
+    std::filesystem::path trace;         ///< CSV
     std::filesystem::path output_folder; ///< of the input log
     bool keys = false;                   ///< print every key of a scene file
     bool explain = false;                ///< print the plan

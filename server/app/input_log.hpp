@@ -29,19 +29,19 @@ struct InputLogHeader {
 };
 
 /// What may change between frames.
-enum class InputKind : std::uint8_t { AddRegion, ChangeRegion, RemoveRegion, ChangeSettings };
+enum class InputKind : std::uint8_t { AddRegion, ChangeRegion, RemoveRegion, ChangeSettings, SetDetail };
 
-constexpr std::array<std::string_view, 4> names(InputKind)
+constexpr std::array<std::string_view, 5> names(InputKind)
 {
-    return {"add_region", "change_region", "remove_region", "change_settings"};
+    return {"add_region", "change_region", "remove_region", "change_settings", "set_detail"};
 }
 
 /// One change, made before a frame.
 struct LoggedCommand {
     std::uint64_t frame = 0; ///< first that has the change
     InputKind kind{};
-    std::string region;               ///< name; empty for settings
-    std::vector<Assignment> settings; ///< all fields of the region, or table.key of what was set
+    std::string region;               ///< name; empty for settings and detail
+    std::vector<Assignment> settings; ///< all fields of the region or detail, or table.key of what was set
 
     friend bool operator==(const LoggedCommand&, const LoggedCommand&) = default;
 };

@@ -32,6 +32,8 @@ Outputs::Outputs(const CommandLine& line, const InputLogHeader& origin)
         picture_.emplace(line.picture);
     if (!line.output_folder.empty())
         input_log_.emplace(line.output_folder, origin);
+    if (!line.trace.empty())
+        trace_.emplace(line.trace);
 }
 
 void Outputs::record(const LoggedCommand& command)
@@ -49,6 +51,18 @@ void Outputs::record(const LoggedCommand& command)
     }
 }
 
+void Outputs::trace(const Snapshot& snapshot, const FrameTime& took, const Regulator::Report& regulation)
+{
+    if (!trace_)
+        return;
+    try {
+        trace_->add(snapshot, took, regulation);
+    } catch (const std::system_error& error) {
+        spdlog::error("{}; the run goes on, but its trace ends with frame {}", error.what(), snapshot.frame);
+        trace_.reset();
+    }
+}
+
 Problems Outputs::write(const Job& job, const Server& server, const RunSummary& summary)
 {
     Problems failures;
@@ -61,6 +75,8 @@ Problems Outputs::write(const Job& job, const Server& server, const RunSummary& 
     };
     if (input_log_)
         attempt([&] { input_log_->finish({.frames = summary.frames, .state_hash = summary.state_hash}); });
+    if (trace_)
+        attempt([&] { trace_->finish(); });
     if (report_)
         attempt([&] {
             report_->commit(report({.scene = job.scene,

@@ -8,6 +8,7 @@
 #include "app/output_file.hpp"
 #include "app/run_summary.hpp"
 #include "app/server.hpp"
+#include "app/trace.hpp"
 
 namespace slod {
 
@@ -22,6 +23,9 @@ public:
     /// line, and the run goes on.
     void record(const LoggedCommand& command);
 
+    /// Adds a frame to the trace, if there is one. When that fails the trace ends there.
+    void trace(const Snapshot& snapshot, const FrameTime& took, const Regulator::Report& regulation);
+
     /// Writes each by itself, and says of each that cannot be written why.
     Problems write(const Job& job, const Server& server, const RunSummary& summary);
 
@@ -29,6 +33,7 @@ private:
     std::optional<OutputFile> report_;
     std::optional<OutputFile> picture_;
     std::optional<InputLogWriter> input_log_;
+    std::optional<TraceWriter> trace_;
 };
 
 /// Whether a run came out as its log says, which it prints; a run that is no replay always succeeds.

@@ -6,10 +6,15 @@
 
 namespace slod {
 
-Pacer::Pacer(double rate_hz, Clock::time_point start)
-    : period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_hz))),
-      due_(start)
-{}
+Pacer::Pacer(double rate_hz, Clock::time_point start) : due_(start)
+{
+    set_rate(rate_hz);
+}
+
+void Pacer::set_rate(double rate_hz)
+{
+    period_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_hz));
+}
 
 Pacer::Clock::time_point Pacer::next(Clock::time_point now)
 {

@@ -14,11 +14,14 @@ public:
     /// The first frame begins at `start`. `rate_hz` > 0.
     Pacer(double rate_hz, Clock::time_point start);
 
+    /// Takes another rate for the frames to come. `rate_hz` > 0.
+    void set_rate(double rate_hz);
+
     /// When the next frame is due, the present one having ended at `now`; never before `now`.
     Clock::time_point next(Clock::time_point now);
 
 private:
-    Clock::duration period_;
+    Clock::duration period_{};
     Clock::time_point due_;
 };
 

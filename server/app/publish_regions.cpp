@@ -49,6 +49,8 @@ const wire::RoiState& RegionEncoder::encode(const RegionRecord& record, const Re
     message_.precedence = std::int32_t(region.precedence); // within 1e9 by its range
     message_.max_cluster_size = region.partition.max_cluster_size;
     message_.max_breadth = region.partition.max_breadth;
+    message_.present_max_cluster_size = load.max_cluster_size;
+    message_.present_max_breadth = load.max_breadth;
     settings_.clear();
     for (const Assignment& field : fields_of(region))
         if (!is_named(field.key)) {
@@ -137,7 +139,7 @@ void PublishedRegions::write_counts(std::span<const RegionLoad> loads)
         Region* const region = load.row < by_row_.size() ? by_row_[load.row] : nullptr;
         if (!region || region->record.revision == 0)
             continue;
-        const bool same = region->load.clusters == load.clusters && region->load.particles == load.particles;
+        const bool same = region->load == load;
         region->load = load;
         if (!same)
             write_state(*region);

@@ -33,7 +33,6 @@ StateEncoder::StateEncoder(const wire::Uuid& session, const Publisher::Session& 
     message_.units = {
         .length_m = facts.units.length_m, .mass_kg = facts.units.mass_kg, .time_s = facts.units.time_s};
     message_.time_step = facts.time_step;
-    message_.frame_rate_target_hz = facts.frame_rate_target_hz;
     wire::set(message_.scene_title, facts.scene_title);
     wire::set(message_.version, facts.version);
     wire::set(message_.isa, facts.isa);
@@ -52,6 +51,7 @@ void StateEncoder::set_frame(const FrameStamp& stamp, std::uint64_t particles, c
     message_.frame = stamp.frame;
     message_.time = stamp.time;
     message_.particles = particles;
+    message_.frame_rate_target_hz = loop.frame_rate_target_hz;
     message_.frame_rate_hz = loop.frame_rate_hz;
     message_.real_time_factor = loop.real_time_factor;
 }

@@ -44,6 +44,7 @@ const wire::Stats& StatsEncoder::encode(const Snapshot& snapshot, const LoopStat
     message_.clusters = snapshot.counts.clusters;
     encode_phases(snapshot.profile);
     encode_counts(snapshot.counts);
+    encode_control(loop.regulation, snapshot.detail);
     message_.wire = published;
     return message_;
 }
@@ -56,6 +57,19 @@ void StatsEncoder::encode_phases(const StepProfile& profile)
         phases_[i].ms = profile[Phase(i)];
     }
     wire::lend(message_.phases, phases_);
+}
+
+void StatsEncoder::encode_control(const Regulator::Report& regulation, const Detail& detail)
+{
+    slod_v1_ControlStats& control = message_.control;
+    wire::set(control.mode, names(regulation.mode)[std::size_t(regulation.mode)]);
+    wire::set(control.state, names(regulation.state)[std::size_t(regulation.state)]);
+    control.target_ms = regulation.target_ms;
+    control.decisions = regulation.decisions;
+    control.cluster_size = detail.cluster_size;
+    control.breadth = detail.breadth;
+    control.opening = detail.opening;
+    control.life = detail.life;
 }
 
 void StatsEncoder::encode_counts(const FrameCounts& counts)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/regulator.hpp"
 #include "app/requests.hpp"
 #include "scene/server_settings.hpp"
 #include "sim/settings.hpp"
@@ -19,8 +20,10 @@ namespace slod {
 /// How the server's loop goes, as means over about the last second.
 struct LoopStats {
     double frame_rate_hz;
-    double work_ms;          ///< of a frame, without the wait for the next
-    double real_time_factor; ///< scene time, in SI seconds, per second of wall time
+    double work_ms;                  ///< of a frame, without the wait for the next
+    double real_time_factor;         ///< scene time, in SI seconds, per second of wall time
+    double frame_rate_target_hz = 0; ///< that the loop paces itself to; 0: as fast as it goes
+    Regulator::Report regulation{};  ///< at the frame's start
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop
@@ -32,8 +35,7 @@ public:
     struct Session {
         std::string scene_title;
         Units units;
-        double time_step;            ///< scene time per frame
-        double frame_rate_target_hz; ///< that the loop paces itself to; 0: as fast as it goes
+        double time_step; ///< scene time per frame
         std::uint64_t particles;
         int threads;
         std::string isa;

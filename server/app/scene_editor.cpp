@@ -122,6 +122,15 @@ Problems SceneEditor::set_background(const std::vector<Assignment>& settings, st
     return found;
 }
 
+bool SceneEditor::set_detail(const Detail& detail, std::uint64_t frame)
+{
+    if (detail == simulation_.detail() || !simulation_.set_detail(detail).empty())
+        return false;
+    log_.push_back(
+        {.frame = frame, .kind = InputKind::SetDetail, .region = {}, .settings = fields_of(detail)});
+    return true;
+}
+
 Problems SceneEditor::repeat(const LoggedCommand& command)
 {
     const RegionRecord* const present = find(command.region);
@@ -144,6 +153,11 @@ Problems SceneEditor::repeat(const LoggedCommand& command)
         return remove(command.region, command.frame);
     case InputKind::ChangeSettings:
         return set(command.settings, command.frame);
+    case InputKind::SetDetail: {
+        Detail detail;
+        Problems found = assign_fields(detail, command.settings);
+        return found.empty() ? simulation_.set_detail(detail) : found;
+    }
     }
     return {"region = \"" + command.region + "\" is not there."};
 }

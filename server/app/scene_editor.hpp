@@ -29,6 +29,7 @@ public:
     const RegionRecord* find(std::string_view name) const;
     std::size_t region_count() const { return records_.size(); } ///< the background included
     const auto& records() const { return records_; }             ///< by name
+    std::uint64_t revision() const { return revisions_; }        ///< grows with every change of a region
 
     // What is asked for wrongly is refused with a sentence per problem, the key first, and changes nothing.
     Problems add(const RegionOfInterest& region, const wire::Uuid& owner, double lease_s,
@@ -37,6 +38,9 @@ public:
     Problems remove(const std::string& name, std::uint64_t frame);        ///< must be there
     /// Settings by table.key; those of [background] are the region's, and stand alone.
     Problems set(const std::vector<Assignment>& settings, std::uint64_t frame);
+
+    /// Gives the whole scene a level of detail; false when it has that already.
+    bool set_detail(const Detail& detail, std::uint64_t frame);
 
     /// Does again what a log says was done.
     Problems repeat(const LoggedCommand& command);

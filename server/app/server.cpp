@@ -38,28 +38,28 @@ Simulation::Options options(const ServerSettings& settings)
 } // namespace
 
 Server::Server(Job& job, bool free_run, Listeners listeners)
-    : frames_(job.frames), free_run_(free_run), frame_rate_hz_(job.scene.server.frame_rate),
+    : frames_(job.frames), free_run_(free_run),
       frame_s_(job.scene.simulation.time.step * job.scene.simulation.units.time_s),
-      each_second_(std::move(listeners.each_second)), threads_(thread_count(job.scene.server)),
-      team_(threads_)
+      each_second_(std::move(listeners.each_second)), each_frame_(std::move(listeners.each_frame)),
+      threads_(thread_count(job.scene.loop.server)), team_(threads_)
 {
     const Scene& scene = job.scene;
     const ParticleSet initial = std::move(job.initial.particles);
-    team_.run([&] { simulation_.emplace(scene.simulation, initial, options(scene.server)); });
+    team_.run([&] { simulation_.emplace(scene.simulation, initial, options(scene.loop.server)); });
     if (scene.wire.enabled)
-        publisher_.emplace(scene.wire,
-                           Publisher::Session{.scene_title = scene.title,
-                                              .units = scene.simulation.units,
-                                              .time_step = scene.simulation.time.step,
-                                              .frame_rate_target_hz = free_run_ ? 0 : frame_rate_hz_,
-                                              .particles = initial.size(),
-                                              .threads = threads_,
-                                              .isa = std::string(simulation_->isa()),
-                                              .version = std::string(version())});
+        publisher_.emplace(scene.wire, Publisher::Session{.scene_title = scene.title,
+                                                          .units = scene.simulation.units,
+                                                          .time_step = scene.simulation.time.step,
+                                                          .particles = initial.size(),
+                                                          .threads = threads_,
+                                                          .isa = std::string(simulation_->isa()),
+                                                          .version = std::string(version())});
     steering_.emplace(*simulation_, publisher_ ? &*publisher_ : nullptr,
                       Steering::Options{.wire = scene.wire,
+                                        .loop = scene.loop,
                                         .replay = job.commands,
                                         .replaying = job.expected.has_value(),
+                                        .regulating = !free_run_,
                                         .record = std::move(listeners.record)});
 }
 
@@ -67,15 +67,16 @@ RunSummary Server::run(const std::stop_token& stop)
 {
     RunSummary summary;
     summary.conserved_start = measure_conserved();
-    const Clock::time_point start = Clock::now();
+    start_ = Clock::now();
     spdlog::info("started threads={} isa={} wire={}", threads_, simulation_->isa(), publisher_.has_value());
 
-    Pacer pacer(frame_rate_hz_, start);
-    LoopMeter meter(frame_s_, start);
+    Pacer pacer(steering_->loop().server.frame_rate, start_);
+    LoopMeter meter(frame_s_, start_);
     steering_->prepare(1, team_);
     while (!ended(summary, stop)) {
         if (steering_->control().may_run()) {
             steering_->follow_views(summary.frames + 1, team_);
+            steering_->regulate(summary.frames + 1, team_);
             run_frame(meter, summary);
             steering_->control().count_frame();
         }
@@ -83,7 +84,7 @@ RunSummary Server::run(const std::stop_token& stop)
     }
     steering_->repeat_rest(summary.frames + 1, team_);
 
-    summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+    summary.wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
     summary.conserved_end = measure_conserved();
     summary.state_hash = simulation_->state_hash();
     spdlog::info("stopped frames={} time={:.6g} wall_s={:.3f} interrupted={}", summary.frames, summary.time,
@@ -103,6 +104,7 @@ void Server::wait_for_frame(Pacer& pacer, LoopMeter& meter, const RunSummary& su
     if (ended(summary, stop))
         return; // what is answered "applied" would be in force from a frame that never runs
     const std::uint64_t next_frame = summary.frames + 1;
+    pacer.set_rate(steering_->loop().server.frame_rate);
     const Clock::time_point due = free_run_ ? Clock::now() : pacer.next(Clock::now());
     steering_->prepare(next_frame, team_);
     while (!ended(summary, stop)) {
@@ -126,16 +128,35 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     team_.run([&] { snapshot = &simulation_->step(request); });
     if (publisher_) {
         const LoopMeans& means = meter.means();
-        publisher_->offer(*snapshot, {.frame_rate_hz = means.frame_rate_hz,
-                                      .work_ms = means.work_ms,
-                                      .real_time_factor = means.real_time_factor});
+        publisher_->offer(*snapshot,
+                          {.frame_rate_hz = means.frame_rate_hz,
+                           .work_ms = means.work_ms,
+                           .real_time_factor = means.real_time_factor,
+                           .frame_rate_target_hz = free_run_ ? 0 : steering_->loop().server.frame_rate,
+                           .regulation = steering_->regulation()});
     }
     const Clock::time_point end = Clock::now();
-    const double work_ms = milliseconds(end - begin);
-    summary.add(*snapshot, work_ms);
-    new_second_ = meter.add(end, work_ms, snapshot->profile);
+    const FrameTime took{.wall_s = std::chrono::duration<double>(end - start_).count(),
+                         .step_ms = milliseconds(end - begin),
+                         .encode_ms = encoding_ms()};
+    steering_->add_work(*snapshot, took.step_ms + took.encode_ms);
+    summary.add(*snapshot, took.step_ms);
+    new_second_ = meter.add(end, took.step_ms, snapshot->profile);
+    const Regulator::Report regulation = steering_->regulation();
+    if (each_frame_)
+        each_frame_(*snapshot, took, regulation);
     if (new_second_)
-        each_second_(*snapshot, meter.means(), simulation_->plan());
+        each_second_(*snapshot, meter.means(), simulation_->plan(), regulation);
+}
+
+double Server::encoding_ms()
+{
+    if (!publisher_)
+        return 0;
+    const Publisher::Counters counters = publisher_->counters();
+    const bool encoded =
+        std::exchange(frames_encoded_, counters.frames_published) != counters.frames_published;
+    return encoded ? counters.encode_ms : 0;
 }
 
 ConservedQuantities Server::measure_conserved()

@@ -10,6 +10,7 @@
 #include "app/publisher.hpp"
 #include "app/run_summary.hpp"
 #include "app/steering.hpp"
+#include "app/trace.hpp"
 #include "core/parallel.hpp"
 #include "sim/simulation.hpp"
 
@@ -21,11 +22,16 @@ namespace slod {
 class Server {
 public:
     /// Told once a second, between frames, how the run goes.
-    using EachSecond = std::function<void(const Snapshot&, const LoopMeans&, const Plan&)>;
+    using EachSecond =
+        std::function<void(const Snapshot&, const LoopMeans&, const Plan&, const Regulator::Report&)>;
+
+    /// Told after each frame what it took.
+    using EachFrame = std::function<void(const Snapshot&, const FrameTime&, const Regulator::Report&)>;
 
     /// Who is told of what.
     struct Listeners {
         EachSecond each_second;
+        EachFrame each_frame{};    ///< may be empty
         Steering::Record record{}; ///< may be empty
     };
 
@@ -51,19 +57,24 @@ private:
     /// One frame and its publication; adds it to `summary`.
     void run_frame(LoopMeter& meter, RunSummary& summary);
 
+    /// What the publisher spent on a frame since the last call, if it encoded one.
+    double encoding_ms();
+
     ConservedQuantities measure_conserved();
 
     std::uint64_t frames_; ///< to run; 0: until stopped
     bool free_run_;        ///< no waiting between frames
-    double frame_rate_hz_; ///< that the pacer holds
     double frame_s_;       ///< simulated time of a frame, SI
     EachSecond each_second_;
+    EachFrame each_frame_;
     int threads_;
     ThreadTeam team_;
     std::optional<Simulation> simulation_;
     std::optional<Publisher> publisher_;
     std::optional<Steering> steering_;
-    bool new_second_ = true; ///< the next frame is the first of a second
+    Pacer::Clock::time_point start_{}; ///< of the run
+    std::uint64_t frames_encoded_ = 0; ///< by the publisher, when that was last asked
+    bool new_second_ = true;           ///< the next frame is the first of a second
 };
 
 } // namespace slod

@@ -51,32 +51,46 @@ std::string speed_text(double real_time_factor)
     return readable ? fmt::format("x{:.2f}", real_time_factor) : duration_text(real_time_factor) + "/s";
 }
 
-} // namespace
-
-std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
+/// Of the background, where a controller turns it: " of 23.5, holding".
+std::string size_text(const Snapshot& snapshot, const Regulator::Report& regulation)
 {
-    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters  {:.1f} ms:{}",
-                       snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
-                       grouped(snapshot.counts.particles), grouped(snapshot.counts.clusters), means.work_ms,
-                       longest_phases(means.profile, plan));
+    if (regulation.state == ControlState::Off)
+        return {};
+    return fmt::format(" of {:.3g}, {}", snapshot.regions.back().max_cluster_size,
+                       names(regulation.state)[std::size_t(regulation.state)]);
 }
 
-std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
+} // namespace
+
+std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
+                        const Regulator::Report& regulation)
+{
+    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}  {:.1f} ms:{}",
+                       snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
+                       grouped(snapshot.counts.particles), grouped(snapshot.counts.clusters),
+                       size_text(snapshot, regulation), means.work_ms, longest_phases(means.profile, plan));
+}
+
+std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
+                          const Regulator::Report& regulation)
 {
     return fmt::format(
         "status frame={} time={:.6g} frame_rate_hz={:.1f} real_time_factor={:.4g} particles={} "
-        "clusters={} work_ms={:.2f}{}",
+        "clusters={} max_cluster_size={:.4g} control={} work_ms={:.2f}{}",
         snapshot.frame, snapshot.time, means.frame_rate_hz, means.real_time_factor, snapshot.counts.particles,
-        snapshot.counts.clusters, means.work_ms, phase_records(means.profile, plan));
+        snapshot.counts.clusters, snapshot.regions.back().max_cluster_size,
+        names(regulation.state)[std::size_t(regulation.state)], means.work_ms,
+        phase_records(means.profile, plan));
 }
 
-void StatusDisplay::update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan)
+void StatusDisplay::update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
+                           const Regulator::Report& regulation)
 {
     ++seconds_;
     if (logging_.on_terminal())
-        logging_.show_status(status_line(snapshot, means, plan));
+        logging_.show_status(status_line(snapshot, means, plan, regulation));
     else if (seconds_ % seconds_between_log_lines == 0)
-        spdlog::info(status_record(snapshot, means, plan));
+        spdlog::info(status_record(snapshot, means, plan, regulation));
 }
 
 } // namespace slod

@@ -4,16 +4,19 @@
 
 #include "app/log.hpp"
 #include "app/loop_meter.hpp"
+#include "app/regulator.hpp"
 #include "sim/plan.hpp"
 #include "sim/snapshot.hpp"
 
 namespace slod {
 
 /// One line for people: frame, rates, sizes and the milliseconds of the longest phases, longest first.
-std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
+std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
+                        const Regulator::Report& regulation);
 
 /// The same as key=value, for a log.
-std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
+std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
+                          const Regulator::Report& regulation);
 
 /// Shows how the run goes: on a terminal every second in place, elsewhere a log line every few seconds.
 class StatusDisplay {
@@ -22,7 +25,8 @@ public:
     explicit StatusDisplay(Logging& logging) : logging_(logging) {}
 
     /// To be called once a second.
-    void update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan);
+    void update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
+                const Regulator::Report& regulation);
 
 private:
     Logging& logging_;

@@ -9,9 +9,11 @@
 namespace slod {
 
 Steering::Steering(Simulation& simulation, Publisher* publisher, Options options)
-    : publisher_(publisher), max_commands_(options.wire.max_commands), replay_(std::move(options.replay)),
-      record_(std::move(options.record)),
-      desk_(simulation, {.max_clients = options.wire.max_commanders, .read_only = options.replaying})
+    : simulation_(simulation), regulating_(options.regulating && !options.replaying), publisher_(publisher),
+      max_commands_(options.wire.max_commands), replay_(std::move(options.replay)),
+      record_(std::move(options.record)), desk_(simulation, {.max_clients = options.wire.max_commanders,
+                                                             .read_only = options.replaying,
+                                                             .loop = options.loop})
 {
     if (publisher && options.wire.commands)
         inbox_.emplace(publisher->participant(), publisher->session());
@@ -35,6 +37,17 @@ void Steering::follow_views(std::uint64_t frame, ThreadTeam& team)
     team.run([&] { desk_.follow_views(frame); });
     record_changes();
     tell();
+}
+
+void Steering::regulate(std::uint64_t frame, ThreadTeam& team)
+{
+    if (!regulating_)
+        return;
+    team.run([&] {
+        regulator_.set(desk_.loop(), desk_.editor(), simulation_);
+        regulator_.apply(desk_.editor(), frame);
+    });
+    record_changes();
 }
 
 void Steering::record_changes()

@@ -9,6 +9,7 @@
 #include "app/command_desk.hpp"
 #include "app/command_inbox.hpp"
 #include "app/publisher.hpp"
+#include "app/regulator.hpp"
 #include "core/parallel.hpp"
 #include "scene/server_settings.hpp"
 
@@ -23,9 +24,11 @@ public:
 
     struct Options {
         const WireSettings& wire;
+        LoopSettings loop{};               ///< at the start
         std::vector<LoggedCommand> replay; ///< of a log, by frame
         bool replaying = false;            ///< clients may change nothing
-        Record record;                     ///< may be empty
+        bool regulating = true; ///< a controller may hold the frame rate, if the scene asks for one
+        Record record;          ///< may be empty
     };
 
     /// `publisher` may be null: nobody commands. Both must outlive the steering. Throws wire::DdsError.
@@ -37,6 +40,15 @@ public:
     /// Moves what follows clients' views, right before `frame` runs: however often commands are looked for,
     /// and however long the loop pauses, a view makes one change.
     void follow_views(std::uint64_t frame, ThreadTeam& team);
+
+    /// Tells the controller, if there is one, of a frame that worked for so long.
+    void add_work(const Snapshot& snapshot, double work_ms) { regulator_.add(snapshot, work_ms); }
+
+    /// Sets the detail that the controller decided on, right before `frame` runs.
+    void regulate(std::uint64_t frame, ThreadTeam& team);
+
+    const LoopSettings& loop() const { return desk_.loop(); } ///< as they were set last
+    Regulator::Report regulation() const { return regulator_.report(); }
 
     /// Makes the changes that a log has of `frame`, which did not run: the recorded run was stopped after
     /// them.
@@ -51,12 +63,15 @@ private:
     void record_changes();
     void tell();
 
+    Simulation& simulation_;
+    bool regulating_; ///< a controller may decide
     Publisher* publisher_;
     std::size_t max_commands_;
     std::vector<LoggedCommand> replay_;
     std::size_t repeated_ = 0; ///< of the log's commands
     Record record_;
     CommandDesk desk_;
+    Regulator regulator_;
     std::optional<CommandInbox> inbox_;
     std::vector<Answer> answers_;
 };

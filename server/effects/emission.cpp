@@ -64,7 +64,7 @@ std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const Update
     const PoolRef pool{clusters.region[slot], clusters.pool[slot]};
     if (!takes_members(context.store, cohort.slot, context.frame))
         return 0;
-    const std::uint32_t most = std::min(tree.of(pool).max_cluster_size(), clusters.slab[slot].capacity);
+    const std::uint32_t most = std::min(tree.of(pool).growth_limit(), clusters.slab[slot].capacity);
     const std::size_t room = most - std::min(most, clusters.stored[slot]);
     const std::size_t joining = std::min(newborns_.size(), room);
     const Vector3d first_velocity = clusters.velocity[slot];
@@ -99,7 +99,7 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     const Particle& founder = grouping_.particles.front();
     const RegionRow region =
         tree.region_at({founder.position, double(founder.mass), founder.velocity.norm()});
-    const std::uint32_t most = tree.subtrees[region].max_cluster_size();
+    const std::uint32_t most = tree.subtrees[region].growth_limit();
     const std::uint32_t parts = clusters_for(count, most);
     const bool open = parts == 1 && count < most;
     grouping_.groups.push_back(

@@ -29,6 +29,9 @@ constexpr std::array<std::string_view, 2> names(OpeningCriterion)
     return {"relative", "geometric"};
 }
 
+/// Largest opening angle there is: a node is never opened by less than nine tenths of its distance.
+inline constexpr double widest_opening = 0.9;
+
 /// Self-gravity between clusters.
 struct GravitySettings {
     double strength = 1;         ///< factor on Newton's constant
@@ -64,7 +67,7 @@ void for_each_field(GravitySettings& gravity, Visitor&& visit)
     visit(Field{"opening_angle", "",
                 "A node acts as one body when its radius is below this share of its distance: the geometric "
                 "criterion, and the relative one's where no acceleration is known yet.",
-                0, 0.9},
+                0, widest_opening},
           gravity.opening_angle);
     visit(Field{"force_tolerance", "",
                 "A node acts as one body when its error is below this share of the last acceleration: the "

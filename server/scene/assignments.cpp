@@ -89,7 +89,9 @@ struct AssignInTable {
     }
 };
 
-void assign_setting(SimulationSettings& settings, const Assignment& assignment, Problems& found)
+/// Assigns to one of the tables, by "table.key".
+template <class Settings>
+void assign_in_tables(Settings& settings, const Assignment& assignment, Problems& found)
 {
     const std::size_t dot = assignment.key.find('.');
     if (dot == std::string::npos) {
@@ -111,29 +113,61 @@ void assign_setting(SimulationSettings& settings, const Assignment& assignment, 
         found.push_back(assignment.key + " is in no table of the simulation; " + suggestion(table, tables));
 }
 
-} // namespace
-
-Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments)
+template <class Settings>
+Problems assign_all_in_tables(Settings& settings, std::span<const Assignment> assignments)
 {
-    return assign_all(region, assignments,
-                      [](RegionOfInterest& changed, const Assignment& assignment, Problems& found) {
+    return assign_all(settings, assignments, assign_in_tables<Settings>);
+}
+
+template <class Settings>
+Problems assign_all_fields(Settings& settings, std::span<const Assignment> assignments)
+{
+    return assign_all(settings, assignments,
+                      [](Settings& changed, const Assignment& assignment, Problems& found) {
                           assign_field(changed, assignment.key, assignment, found);
                       });
 }
 
+template <class Settings>
+std::vector<Assignment> all_fields(Settings settings) // for_each_field takes what it may change
+{
+    std::vector<Assignment> fields;
+    for_each_field(settings, [&](const Field& field, const auto& value) {
+        fields.push_back({std::string(field.key), value_text(value)});
+    });
+    return fields;
+}
+
+} // namespace
+
+Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments)
+{
+    return assign_all_fields(region, assignments);
+}
+
 Problems assign_fields(SimulationSettings& settings, std::span<const Assignment> assignments)
 {
-    return assign_all(settings, assignments, assign_setting);
+    return assign_all_in_tables(settings, assignments);
+}
+
+Problems assign_fields(LoopSettings& settings, std::span<const Assignment> assignments)
+{
+    return assign_all_in_tables(settings, assignments);
+}
+
+Problems assign_fields(Detail& detail, std::span<const Assignment> assignments)
+{
+    return assign_all_fields(detail, assignments);
 }
 
 std::vector<Assignment> fields_of(const RegionOfInterest& region)
 {
-    RegionOfInterest copy = region; // for_each_field takes what it may change
-    std::vector<Assignment> fields;
-    for_each_field(copy, [&](const Field& field, const auto& value) {
-        fields.push_back({std::string(field.key), value_text(value)});
-    });
-    return fields;
+    return all_fields(region);
+}
+
+std::vector<Assignment> fields_of(const Detail& detail)
+{
+    return all_fields(detail);
 }
 
 } // namespace slod

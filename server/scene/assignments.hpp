@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/settings.hpp"
+#include "scene/server_settings.hpp"
 #include "sim/settings.hpp"
+#include "tree/detail.hpp"
 
 namespace slod {
 
@@ -25,7 +27,14 @@ Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> ass
 /// Likewise settings of the simulation by "table.key"; [[tables]] cannot be reached.
 Problems assign_fields(SimulationSettings& settings, std::span<const Assignment> assignments);
 
-/// All fields of a region; assign_fields() makes the same region of them.
+/// Likewise settings of the loop.
+Problems assign_fields(LoopSettings& settings, std::span<const Assignment> assignments);
+
+/// Likewise a level of detail, by its fields' keys.
+Problems assign_fields(Detail& detail, std::span<const Assignment> assignments);
+
+/// All fields; assign_fields() makes the same of them.
 std::vector<Assignment> fields_of(const RegionOfInterest& region);
+std::vector<Assignment> fields_of(const Detail& detail);
 
 } // namespace slod

@@ -19,7 +19,7 @@ struct Scene {
     InitialSettings initial;
     GalaxySettings galaxy;
     EncounterSettings encounter;
-    ServerSettings server;
+    LoopSettings loop;
     WireSettings wire;
 };
 

@@ -83,7 +83,9 @@ Problems problems(const Scene& scene)
         check_galaxy(scene, found);
     if (pair)
         check_encounter(scene.encounter, found);
-    check_instruction_set(scene.server, found);
+    check_instruction_set(scene.loop.server, found);
+    for (const std::string& problem : problems(scene.loop.control))
+        found.push_back("control." + problem);
     if (scene.initial.fallback == InitialModel::Gadget2)
         found.push_back("initial.fallback = \"gadget2\" is what it would fall back from; use none, galaxy or "
                         "galaxy_pair.");

@@ -49,6 +49,15 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"limits", "What the scene may grow to."}, simulation.limits);
 }
 
+/// Likewise for the tables that say how the server runs it.
+template <class Visitor>
+void for_each_section(LoopSettings& loop, Visitor&& visit)
+{
+    visit(Section{"server", "How the server runs the scene; the outcome does not depend on it."},
+          loop.server);
+    visit(Section{"control", "The frame rate, held by changing the level of detail."}, loop.control);
+}
+
 /// Likewise for every table, in the order of the reference. The two are the only list of tables.
 template <class Visitor>
 void for_each_section(Scene& scene, Visitor&& visit)
@@ -59,8 +68,7 @@ void for_each_section(Scene& scene, Visitor&& visit)
     visit(Section{"initial", "The particles at the start."}, scene.initial);
     visit(Section{"galaxy", "The generated galaxy, for the models galaxy and galaxy_pair."}, scene.galaxy);
     visit(Section{"encounter", "The orbit of a galaxy_pair."}, scene.encounter);
-    visit(Section{"server", "How the server runs the scene; the outcome does not depend on it."},
-          scene.server);
+    for_each_section(scene.loop, visit);
     visit(Section{"wire", "What is published over DDS."}, scene.wire);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "control/settings.hpp"
+
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -27,6 +29,12 @@ struct ServerSettings {
     double frame_rate = 30;    ///< frames per second of wall time that the pacer holds
     std::uint32_t threads = 0; ///< 0: one per core
     InstructionSet isa = InstructionSet::Auto;
+};
+
+/// What may change while the server runs a scene, besides the simulation.
+struct LoopSettings {
+    ServerSettings server; ///< the frame rate of it
+    ControlSettings control;
 };
 
 /// Where the wire reaches.

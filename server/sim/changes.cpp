@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sim/state.hpp"
@@ -152,7 +153,31 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
                                                     : 0);
     s.settings = wanted;
     s.set_fields();
+    s.set_detail();
     return {};
+}
+
+Problems Simulation::set_detail(const Detail& detail)
+{
+    State& s = *state_;
+    if (s.plan.unclustered)
+        return {"cluster_size cannot change: the scene was planned without clusters; start it with "
+                "background.max_cluster_size above 1."};
+    slod::set_detail(s.tree, detail, s.store.clusters);
+    s.regrouping.allow_merging();
+    s.set_detail();
+    return {};
+}
+
+/// What gravity and the clocks take of the tree's detail.
+void Simulation::State::set_detail()
+{
+    reforming.set_clock(settings.motion.clock * tree.detail.life);
+    if (!settings.gravity)
+        return;
+    gravity = *settings.gravity;
+    gravity.force_tolerance *= tree.detail.opening;
+    gravity.opening_angle = std::min(gravity.opening_angle * std::sqrt(tree.detail.opening), widest_opening);
 }
 
 /// Keeps the last pulls, which errors are compared with, in line with the strength of gravity; 0: not known.

@@ -34,6 +34,7 @@ void Simulation::State::observe(const Request& request)
     snapshot.counts.particles = particle_count;
     snapshot.counts.clusters = store.clusters.alive_count();
     snapshot.counts.pools = tree.pool_count();
+    snapshot.detail = tree.detail;
     count_regions();
     snapshot.conserved = {};
     if (request.conserved)
@@ -47,9 +48,13 @@ void Simulation::State::observe(const Request& request)
 void Simulation::State::count_regions()
 {
     snapshot.regions.clear();
-    RegionLoad rest{background_row, store.clusters.alive_count(), particle_count};
+    const auto load_of = [&](RegionRow row, std::uint64_t clusters, std::uint64_t particles) -> RegionLoad {
+        const RegionSettings& present = tree.subtrees[row].settings;
+        return {row, clusters, particles, present.max_cluster_size, present.max_breadth};
+    };
+    RegionLoad rest = load_of(background_row, store.clusters.alive_count(), particle_count);
     for (const RegionIndex::Entry& entry : tree.index.entries()) {
-        RegionLoad load{.row = entry.row, .clusters = 0, .particles = 0};
+        RegionLoad load = load_of(entry.row, 0, 0);
         for (const Pool& pool : tree.subtrees[entry.row].pools) {
             load.clusters += pool.node.valid() ? pool.clusters : 0;
             load.particles += pool.node.valid() ? pool.members : 0;

@@ -17,16 +17,15 @@ enum class Phase : std::uint8_t {
     Moments,
     Forces,
     CloseKick,
-    Control,
     Snapshot,
 };
 
-inline constexpr std::size_t phase_count = 10;
+inline constexpr std::size_t phase_count = 9;
 
 constexpr std::array<std::string_view, phase_count> names(Phase)
 {
     return {"commands", "open_kick", "propagate",  "emit",    "update",
-            "moments",  "forces",    "close_kick", "control", "snapshot"};
+            "moments",  "forces",    "close_kick", "snapshot"};
 }
 
 /// Milliseconds of each phase in one frame; 0 for a phase that is not in the plan.

@@ -64,7 +64,6 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::Moments, kicked);
     runs(Phase::Forces, kicked);
     runs(Phase::CloseKick, kicked);
-    runs(Phase::Control, false);
     runs(Phase::Snapshot, true);
 }
 

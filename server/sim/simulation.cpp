@@ -54,6 +54,11 @@ const SimulationSettings& Simulation::settings() const
     return state_->settings;
 }
 
+const Detail& Simulation::detail() const
+{
+    return state_->tree.detail;
+}
+
 std::string_view Simulation::isa() const
 {
     return state_->kernels->name;

@@ -54,6 +54,11 @@ public:
     /// acceleration and wind; which effects there are may not. Regions have functions of their own.
     Problems change_settings(const SimulationSettings& wanted);
 
+    /// Makes all of the scene coarser or finer than it asks for, gradually, from the next step on. Refused
+    /// where the scene was planned without clusters.
+    Problems set_detail(const Detail& detail);
+    const Detail& detail() const;
+
     /// One frame: one fixed time step. The snapshot is valid until the next call. Throws std::overflow_error
     /// with a remedy when something leaves the range of numbers; the simulation is of no use then.
     const Snapshot& step(const Request& request);
@@ -65,7 +70,8 @@ public:
     const SimulationSettings& settings() const;
     std::string_view isa() const; ///< of the kernels in use
 
-    /// Covers centres, velocities, maps, members, masses, ids, the region table and the random counters.
+    /// Covers centres, velocities, maps, members, masses, ids, the region table, the level of detail and
+    /// the random counters.
     std::uint64_t state_hash() const;
 
     /// Every particle, mapped out of its cluster, ordered by id. O(particles).

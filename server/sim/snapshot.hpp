@@ -34,7 +34,7 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 15> event_counts{{
+inline constexpr std::array<EventCount, 16> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -43,6 +43,7 @@ inline constexpr std::array<EventCount, 15> event_counts{{
     {"strays_inserted", &FrameCounts::strays_inserted},
     {"strays_founding", &FrameCounts::strays_founding},
     {"crossings", &FrameCounts::crossings},
+    {"reinserted", &FrameCounts::reinserted},
     {"splits", &FrameCounts::splits},
     {"merges", &FrameCounts::merges},
     {"nodes_searched", &FrameCounts::nodes_searched},
@@ -72,6 +73,9 @@ struct ClusterStates {
 struct RegionLoad {
     RegionRow row;
     std::uint64_t clusters, particles;
+    double max_cluster_size, max_breadth; ///< at the present detail; particles, scene length
+
+    friend bool operator==(const RegionLoad&, const RegionLoad&) = default;
 };
 
 /// One frame's outcome.
@@ -85,6 +89,7 @@ struct Snapshot {
     Vector3d unanswered_force{0, 0, 0};
     StepProfile profile;             ///< of this frame
     std::vector<RegionLoad> regions; ///< in order of precedence, the background last
+    Detail detail;                   ///< that the frame was run at
     ClusterStates clusters;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/assert.hpp"
 #include "sim/integrator.hpp"
@@ -81,6 +82,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 {
     if (scene.gravity)
         gravitational_constant *= scene.gravity->strength;
+    set_detail();
     store.uniform_mass = plan.uniform_mass;
     for (const ParticleKind& kind : scene.kinds)
         store.kind_softening_squared.push_back(kind.softening * kind.softening);
@@ -171,6 +173,7 @@ void Simulation::State::emit()
 
 void Simulation::State::update()
 {
+    snapshot.counts.reinserted = std::exchange(tree.reinserted, 0);
     if (plan.clocked)
         reforming.update(tree, frame, snapshot.counts);
     else
@@ -181,14 +184,14 @@ void Simulation::State::update()
 
 void Simulation::State::measure_moments()
 {
-    measure_shapes(store, *settings.gravity, gravitational_constant, frame);
-    build(view, tree, store.clusters, *settings.gravity);
+    measure_shapes(store, gravity, gravitational_constant, frame);
+    build(view, tree, store.clusters, gravity);
 }
 
 void Simulation::State::evaluate_forces()
 {
-    const ForceCounts counts = evaluate_gravity(view, *kernels, *settings.gravity, gravitational_constant,
-                                                force_lists, store.clusters);
+    const ForceCounts counts =
+        evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists, store.clusters);
     snapshot.counts.interactions = counts.interactions;
     snapshot.unanswered_force = counts.unanswered;
     snapshot.counts.walks = counts.groups;

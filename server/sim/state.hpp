@@ -38,6 +38,7 @@ struct Simulation::State {
     void take_up_merging();
     void scale_pulls(double factor);
     void set_fields(); ///< from the settings
+    void set_detail(); ///< from the settings and the tree's detail
 
     /// Runs and times a phase, if the plan has it.
     template <class Work>
@@ -58,6 +59,7 @@ struct Simulation::State {
     Plan plan;
     const simd::KernelTable* kernels;
     Tick tick;
+    GravitySettings gravity; ///< at the tree's detail, if the scene has gravity
     double gravitational_constant;
     UniformFields fields;
     Propagator propagator;   ///< of one frame

@@ -134,6 +134,8 @@ std::uint64_t hash_state(const ClusterStore& store, const SlodTree& tree, const 
         add_subtree(hasher, subtree);
     for (const SlodTree::Region& region : tree.regions)
         add_region(hasher, region);
+    Detail detail = tree.detail; // for_each_field takes what it may change
+    for_each_field(detail, [&](const Field&, auto& value) { hasher.add(value); });
     hasher.add(store.uniform_mass);
     hasher.add(run.frame);
     hasher.add(run.random_counters.data(), run.random_counters.size());

@@ -41,20 +41,6 @@ Symmetric3 union_moments(const ClusterStore& store, std::size_t a, std::size_t b
     return Symmetric3::of(one.moments + other.moments + reduced * apart * apart.transpose());
 }
 
-/// The velocities of a cluster's members: in a ball about the mean.
-struct VelocityBall {
-    Vector3d mean;
-    double speed;  ///< of the mean
-    double radius; ///< no member's velocity is farther from the mean
-};
-
-VelocityBall velocity_ball(const ClusterStore& store, std::size_t slot, std::uint64_t frame,
-                           const Vector3d& reference)
-{
-    const Vector3d mean = store.clusters.velocity[slot] - reference;
-    return {mean, mean.norm(), velocity_bound(store.clusters, store.rule, slot, frame)};
-}
-
 /// A direction in a plane; products of them add angles.
 struct Turn {
     double cosine, sine;
@@ -78,22 +64,6 @@ Turn between(const Vector3d& a, const Vector3d& b)
     return {a.dot(b) / product, a.cross(b).norm() / product};
 }
 
-/// Whether every velocity in one ball is within the limits to every velocity in the other.
-bool move_alike(const RegionSettings& region, const VelocityBall& a, const VelocityBall& b)
-{
-    const double fastest = std::max(a.speed + a.radius, b.speed + b.radius);
-    const double slowest = std::min(a.speed - a.radius, b.speed - b.radius);
-    if (fastest <= region.speed_floor)
-        return true;
-    if (slowest <= 0 || fastest > region.speed_ratio * slowest)
-        return false;
-    if (region.angle_deg >= 180)
-        return true;
-    const double limit = portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine;
-    const Turn widest = between(a.mean, b.mean) * half_angle(a) * half_angle(b);
-    return widest.sine >= 0 && widest.cosine >= limit; // below 0: more than half a turn
-}
-
 /// Of `size` times the largest principal variance, for a cluster no wider than `limit`.
 double largest_variance_sum(double limit, double size)
 {
@@ -110,23 +80,55 @@ double breadth_goal(const RegionSettings& region, std::uint32_t size)
 
 } // namespace
 
+VelocityBall velocity_ball(const ClusterStore& store, std::size_t slot, std::uint64_t frame,
+                           const Vector3d& reference)
+{
+    const Vector3d mean = store.clusters.mean_velocity(slot) - reference;
+    return {mean, mean.norm(), velocity_bound(store.clusters, store.rule, slot, frame)};
+}
+
+MergeRules::MergeRules(const RegionSettings& region)
+    : region_(region), least_cosine_(portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine)
+{}
+
+bool MergeRules::move_alike(const VelocityBall& a, const VelocityBall& b) const
+{
+    const double fastest = std::max(a.speed + a.radius, b.speed + b.radius);
+    const double slowest = std::min(a.speed - a.radius, b.speed - b.radius);
+    if (fastest <= region_.speed_floor)
+        return true;
+    if (slowest <= 0 || fastest > region_.speed_ratio * slowest)
+        return false;
+    if (region_.angle_deg >= 180)
+        return true;
+    const Turn widest = between(a.mean, b.mean) * half_angle(a) * half_angle(b);
+    return widest.sine >= 0 && widest.cosine >= least_cosine_; // below 0: more than half a turn
+}
+
+bool MergeRules::fit(const ClusterStore& store, ClusterSlot a, ClusterSlot b, std::uint64_t frame) const
+{
+    if (!std::isfinite(region_.max_breadth))
+        return true;
+    const std::uint32_t size = store.clusters.count[a.index] + store.clusters.count[b.index];
+    return !wider_than(breadth_goal(region_, size), union_moments(store, a.index, b.index, frame), size);
+}
+
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
                std::uint64_t frame, const Vector3d& reference)
 {
     const ClusterTable& clusters = store.clusters;
-    const std::uint32_t size = clusters.count[a.index] + clusters.count[b.index];
-    return size <= std::uint32_t(region.max_cluster_size) &&
-           move_alike(region, velocity_ball(store, a.index, frame, reference),
-                      velocity_ball(store, b.index, frame, reference)) &&
-           (!std::isfinite(region.max_breadth) ||
-            !wider_than(breadth_goal(region, size), union_moments(store, a.index, b.index, frame), size));
+    const MergeRules rules(region);
+    return clusters.count[a.index] + clusters.count[b.index] <= std::uint32_t(region.max_cluster_size) &&
+           rules.move_alike(velocity_ball(store, a.index, frame, reference),
+                            velocity_ball(store, b.index, frame, reference)) &&
+           rules.fit(store, a, b, frame);
 }
 
 bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
                  std::uint64_t frame, const Vector3d& reference)
 {
     const VelocityBall ball = velocity_ball(store, slot.index, frame, reference);
-    return move_alike(region, ball, ball);
+    return MergeRules(region).move_alike(ball, ball);
 }
 
 double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass)

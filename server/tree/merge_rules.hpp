@@ -7,6 +7,33 @@
 
 namespace slod {
 
+/// The velocities of a cluster's members: in a ball about the mean.
+struct VelocityBall {
+    Vector3d mean{0, 0, 0}; ///< scene length / time
+    double speed = 0;       ///< of the mean
+    double radius = 0;      ///< no member's velocity is farther from the mean
+};
+
+/// Relative to the velocity `reference`.
+VelocityBall velocity_ball(const ClusterStore& store, std::size_t slot, std::uint64_t frame,
+                           const Vector3d& reference);
+
+/// A region's rules for merges, ready for many pairs.
+class MergeRules {
+public:
+    explicit MergeRules(const RegionSettings& region);
+
+    /// Whether every velocity in one ball is within the limits of speed and angle to every one in the other.
+    bool move_alike(const VelocityBall& a, const VelocityBall& b) const;
+
+    /// Whether both together are no wider than the region allows.
+    bool fit(const ClusterStore& store, ClusterSlot a, ClusterSlot b, std::uint64_t frame) const;
+
+private:
+    const RegionSettings& region_;
+    double least_cosine_; ///< of the angle
+};
+
 /// Whether two clusters may become one (O'Brien et al. 2001, section 4.1): together no more than the
 /// maximum size and breadth, and speeds and directions, relative to the velocity `reference`, within the
 /// region's limits. Those hold for any member of one and any of the other, not only for their means, so

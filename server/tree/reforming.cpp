@@ -335,8 +335,10 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
 void Reforming::form(SlodTree& tree)
 {
     for (Grouping::Group& group : grouping_.groups) {
-        const std::uint32_t size = tree.of(group.pool).max_cluster_size();
-        const double goal = std::max(filled * size, 1.0);
+        const Subtree& subtree = tree.of(group.pool);
+        const std::uint32_t size = subtree.max_cluster_size();
+        const double most = subtree.dithered ? subtree.settings.max_cluster_size : size;
+        const double goal = std::max(filled * most, 1.0);
         group.clusters = clusters_for(group.count, goal);
         group.spare_rows = size - std::uint32_t(goal);
     }

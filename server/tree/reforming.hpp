@@ -21,6 +21,9 @@ class Reforming {
 public:
     Reforming(const MotionSettings& motion, const UpdateContext& context);
 
+    /// Takes another dynamical clock for the lives to come, in units of the local dynamical time.
+    void set_clock(double clock) { motion_.clock = clock; }
+
     /// Forms clusters of `particles`, none of which has one yet.
     void found(SlodTree& tree, std::span<const Particle> particles, std::uint64_t frame);
 

@@ -11,11 +11,11 @@ namespace slod {
 namespace {
 
 constexpr std::size_t block = 1024;          ///< clusters planned by one task
-constexpr std::uint64_t revision_period = 8; ///< frames between revisions of the k-d trees
-constexpr std::uint64_t merge_period = 16;   ///< every pool looks for merges once in so many frames
+constexpr std::uint64_t revision_period = 8; ///< frames between revisions of a leaf
 /// Frames over which a region's clusters are split when its maximum size falls: a sweep, not a stroke.
 constexpr std::uint64_t split_period = 8;
-constexpr double crowded = 1.4, sparse = 0.7; ///< of the pool limit; apart, as clusters come and go
+/// Of the pool limit; apart, as clusters come and go. A flooded leaf does not wait for its turn.
+constexpr double flooded = 4, crowded = 1.4, sparse = 0.7;
 
 } // namespace
 
@@ -28,7 +28,8 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
     actions_.reserve(clusters);
     targets_.reserve(clusters);
     searches_.reserve(clusters / block + 1);
-    for (auto* list : {&crossing_, &splitting_, &merging_pairs_, &partner_, &by_position_})
+    pairing_.reserve(clusters);
+    for (auto* list : {&crossing_, &splitting_, &merging_pairs_, &by_position_})
         list->reserve(clusters);
 }
 
@@ -38,11 +39,10 @@ void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& count
     plan(tree, counts);
     move_crossing(tree, counts);
     split(tree, counts);
+    revise(tree);
     if (merging_)
         merge(tree, counts);
     free_closed(tree);
-    if (frame % revision_period == 0)
-        revise(tree);
 }
 
 void Regrouping::plan(const SlodTree& tree, UpdateCounts& counts)
@@ -75,7 +75,7 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot, Se
     const ClusterTable& clusters = context_.store.clusters;
     const Subtree& subtree = tree.subtrees[clusters.region[slot]];
     const std::uint32_t count = clusters.count[slot];
-    if (count > subtree.max_cluster_size() && (slot + context_.frame) % split_period == 0)
+    if (count > subtree.split_size(clusters.formation[slot]) && (slot + context_.frame) % split_period == 0)
         return Action::Split;
     if (too_wide(context_.store, subtree.settings, {std::uint32_t(slot)}, context_.frame))
         return Action::Split;
@@ -232,36 +232,19 @@ void Regrouping::measure_surroundings(const SlodTree& tree)
 void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
 {
     measure_surroundings(tree);
-    partner_.resize(context_.store.clusters.slot_count());
-    merging_pairs_.clear();
-    grouping_.clear();
-    std::uint32_t first = 0;
-    for (const Subtree& subtree : tree.subtrees) {
-        const std::size_t turn = context_.frame % merge_period;
-        const std::size_t turns = (subtree.pools.size() + merge_period - 1 - turn) / merge_period;
-        for_each_block(turns, 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                pair_clusters(subtree, subtree.pools[i * merge_period + turn]);
-        });
-        const ClusterTable& clusters = context_.store.clusters;
-        for (std::size_t i = 0; i < turns; ++i) {
-            const Pool& pool = subtree.pools[i * merge_period + turn];
-            for (ClusterSlot a = pool.first; a.valid(); a = clusters.next[a.index]) {
-                const ClusterSlot b = partner_[a.index];
-                if (!b.valid() || b < a)
-                    continue;
-                merging_pairs_.insert(merging_pairs_.end(), {a, b});
-                const std::uint32_t count = clusters.count[a.index] + clusters.count[b.index];
-                grouping_.groups.push_back({.pool = {subtree.region, clusters.pool[a.index]},
-                                            .first = first,
-                                            .count = count,
-                                            .clusters = 1});
-                first += count;
-            }
-        }
-    }
+    pairing_.find(tree, context_.store, context_.frame, surroundings_, merging_pairs_);
     if (merging_pairs_.empty())
         return;
+    const ClusterTable& clusters = context_.store.clusters;
+    grouping_.clear();
+    std::uint32_t first = 0;
+    for (std::size_t pair = 0; pair < merging_pairs_.size(); pair += 2) {
+        const std::size_t a = merging_pairs_[pair].index, b = merging_pairs_[pair + 1].index;
+        const std::uint32_t count = clusters.count[a] + clusters.count[b];
+        grouping_.groups.push_back(
+            {.pool = {clusters.region[a], clusters.pool[a]}, .first = first, .count = count, .clusters = 1});
+        first += count;
+    }
     dissolve(tree, grouping_, merging_pairs_, context_);
     if (merged_velocities_ == MergedVelocities::Collapse)
         share_velocities();
@@ -270,50 +253,27 @@ void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
     counts.reformed_members += first;
 }
 
-/// Pairs each cluster of a pool with the nearest later one that it may merge with.
-void Regrouping::pair_clusters(const Subtree& tree, const Pool& pool)
-{
-    const ClusterTable& clusters = context_.store.clusters;
-    for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index])
-        partner_[slot.index] = {};
-    for (ClusterSlot a = pool.first; a.valid(); a = clusters.next[a.index]) {
-        if (partner_[a.index].valid())
-            continue;
-        ClusterSlot best;
-        double best_squared = 0;
-        for (ClusterSlot b = clusters.next[a.index]; b.valid(); b = clusters.next[b.index]) {
-            const double squared = (clusters.position[b.index] - clusters.position[a.index]).squaredNorm();
-            if (partner_[b.index].valid() || (best.valid() && squared >= best_squared) ||
-                !may_merge(context_.store, tree.settings, a, b, context_.frame, surroundings_[tree.region]))
-                continue;
-            best = b;
-            best_squared = squared;
-        }
-        if (best.valid()) {
-            partner_[a.index] = best;
-            partner_[best.index] = a;
-        }
-    }
-}
-
-/// Keeps the k-d trees as fine as the clusters ask for (section 4.2).
+/// Keeps the k-d trees as fine as the clusters ask for (section 4.2): a pool in its turn, and at once where a
+/// region has come or changed its cells and its clusters are all in a few leaves.
 void Regrouping::revise(SlodTree& tree)
 {
     for (Subtree& subtree : tree.subtrees) {
-        const auto limit = std::uint32_t(sparse * subtree.pool_limit());
+        const auto least = std::uint32_t(sparse * subtree.pool_limit());
+        const double flood = flooded * subtree.pool_limit();
         for (std::uint32_t pool = 0; pool < subtree.pools.size(); ++pool) { // grows
-            if (!subtree.pools[pool].node.valid())
+            const bool turn = (pool + context_.frame) % revision_period == 0;
+            if (!subtree.pools[pool].node.valid() || (!turn && subtree.pools[pool].members <= flood))
                 continue;
-            if (subtree.pools[pool].members < limit)
-                prune(subtree, context_.store.clusters, {pool}, limit);
+            if (subtree.pools[pool].members < least)
+                prune(subtree, context_.store.clusters, {pool}, least);
             else
                 expand_crowded(subtree, {pool});
         }
     }
 }
 
-/// Splits the pool's leaf at the median of its members, taken at their clusters' centres, until what stays
-/// is no longer crowded. What goes to the other side is looked at in its turn.
+/// Splits the pool's leaf at the median of its members, taken at their clusters' centres, and both sides on,
+/// until none is crowded. The tree's depth is bounded, and so is the recursion.
 void Regrouping::expand_crowded(Subtree& tree, PoolId pool)
 {
     ClusterTable& clusters = context_.store.clusters;
@@ -336,7 +296,7 @@ void Regrouping::expand_crowded(Subtree& tree, PoolId pool)
         const double margin = 0.2 * box.size()[axis];
         const double position =
             std::clamp(coordinate(*median), box.lower[axis] + margin, box.upper[axis] - margin);
-        expand(tree, clusters, pool, axis, position);
+        expand_crowded(tree, expand(tree, clusters, pool, axis, position));
     }
 }
 

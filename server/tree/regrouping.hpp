@@ -6,6 +6,7 @@
 
 #include "cluster/motion.hpp"
 #include "tree/grouping.hpp"
+#include "tree/pairing.hpp"
 #include "tree/slod_tree.hpp"
 
 namespace slod {
@@ -49,7 +50,6 @@ private:
     void split(SlodTree& tree, UpdateCounts& counts);
     void measure_surroundings(const SlodTree& tree);
     void merge(SlodTree& tree, UpdateCounts& counts);
-    void pair_clusters(const Subtree& tree, const Pool& pool);
     void dissolve_splitting(SlodTree& tree);
     void form_dissolved(SlodTree& tree, Vector3d Particle::*place);
     void share_velocities();
@@ -60,11 +60,11 @@ private:
     bool merging_;
     UpdateContext context_;
     Grouping grouping_;
+    Pairing pairing_;
     std::vector<Action> actions_;  ///< by slot
     std::vector<PoolRef> targets_; ///< by slot, of those that cross
     std::vector<Search> searches_; ///< by block of slots
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
-    std::vector<ClusterSlot> partner_; ///< by slot
     std::vector<ClusterSlot> by_position_;
     std::vector<Vector3d> surroundings_;   ///< by region: what its velocities are relative to
     std::vector<std::uint64_t> in_region_; ///< particles, by region

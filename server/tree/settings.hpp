@@ -56,6 +56,8 @@ struct RegionSettings {
     double max_cluster_size = 64; ///< particles per cluster; real-valued, floored when used
     double max_breadth = std::numeric_limits<double>::infinity(); ///< diameter of a cluster, scene length
     double pool_factor = 4; ///< particles re-formed together, in cluster sizes
+    /// How far a controller may change the size and breadth: the exponent of its factors. 0: not at all.
+    double control_share = 1;
     double speed_ratio = 2; ///< largest ratio of speeds that may merge (lambda)
     double angle_deg = 30;  ///< largest angle between velocities that may merge (theta)
     double speed_floor = 0; ///< below it speeds and directions are not compared, scene length / time
@@ -83,6 +85,9 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
     visit(Field{"pool_factor", "", "Particles that are re-formed together, in units of max_cluster_size.", 1,
                 64},
           region.pool_factor);
+    visit(Field{"control_share", "",
+                "How far the frame rate controller may change the two sizes: 0 not at all, 1 in full.", 0, 1},
+          region.control_share);
     visit(Field{"speed_ratio", "", "Clusters merge only below this ratio of speeds (rigid motion).", 1, 1e6},
           region.speed_ratio);
     visit(Field{"angle", "deg", "Clusters merge only below this angle between velocities (rigid motion).", 0,

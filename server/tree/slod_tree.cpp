@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/assert.hpp"
 #include "core/parallel.hpp"
@@ -16,10 +17,10 @@ const Box all_space{Vector3d::Constant(-std::numeric_limits<double>::infinity())
 
 /// Side of a region's grid cells: the maximum breadth or, when that is unlimited, a power of two that spans
 /// the region, for the k-d trees to refine.
-double cell_side_of(const SlodTree& tree, const RegionOfInterest& region)
+double cell_side_of(const SlodTree& tree, const RegionOfInterest& region, double max_breadth)
 {
-    if (std::isfinite(region.partition.max_breadth))
-        return region.partition.max_breadth;
+    if (std::isfinite(max_breadth))
+        return max_breadth;
     const double width = RegionTest(region).bounds().size().maxCoeff();
     constexpr double widest = 1e300; // whose power of two is a number yet
     if (width > widest)
@@ -39,14 +40,32 @@ void lay_cells_anew(SlodTree& tree, RegionRow row, const RegionSettings& setting
                     ClusterTable& clusters)
 {
     Subtree old(settings, row, cell_side);
+    old.dithered = tree.detail.dithered;
     std::swap(old, tree.subtrees[row]);
     for (const Pool& pool : old.pools) {
         for (ClusterSlot slot = pool.node.valid() ? pool.first : ClusterSlot{}; slot.valid();) {
             const ClusterSlot next = clusters.next[slot.index];
             Subtree& subtree = tree.subtrees[row];
             link(subtree, clusters, locate_or_grow(subtree, subject_of(clusters, slot.index)), slot);
+            ++tree.reinserted;
             slot = next;
         }
+    }
+}
+
+/// Gives the row's subtree parameters and, where they ask for other cells, those.
+void partition(SlodTree& tree, RegionRow row, const RegionOfInterest& region, ClusterTable& clusters)
+{
+    Subtree& subtree = tree.subtrees[row];
+    const RegionSettings settings = at_detail(region.partition, tree.detail);
+    subtree.dithered = tree.detail.dithered;
+    const bool keeps_side = row == background_row && !std::isfinite(settings.max_breadth);
+    const double side = keeps_side ? subtree.cell_side : cell_side_of(tree, region, settings.max_breadth);
+    if (same_cells(subtree, settings, side)) {
+        subtree.settings = settings;
+    } else {
+        lay_cells_anew(tree, row, settings, side, clusters);
+        tree.regions[row].laid_anew = tree.unsettled = true;
     }
 }
 
@@ -137,11 +156,14 @@ RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)
     while (row < tree.regions.size() && (tree.regions[row].open || tree.subtrees[row].pool_count() > 0))
         ++row;
     SLOD_ASSERT(row <= std::numeric_limits<RegionRow>::max());
+    const RegionSettings settings = at_detail(region.partition, tree.detail);
+    Subtree subtree(settings, RegionRow(row), cell_side_of(tree, region, settings.max_breadth));
+    subtree.dithered = tree.detail.dithered;
     if (row == tree.regions.size()) {
         tree.regions.emplace_back();
-        tree.subtrees.emplace_back(region.partition, RegionRow(row), cell_side_of(tree, region));
+        tree.subtrees.push_back(std::move(subtree));
     } else {
-        tree.subtrees[row] = Subtree(region.partition, RegionRow(row), cell_side_of(tree, region));
+        tree.subtrees[row] = std::move(subtree);
     }
     const Box nowhere{all_space.upper, all_space.lower}; // meets nothing
     const Box before = tree.regions[row].moved ? tree.regions[row].before : nowhere;
@@ -153,21 +175,20 @@ RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)
 void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region, ClusterTable& clusters)
 {
     SLOD_ASSERT(row < tree.regions.size() && tree.regions[row].open);
-    SlodTree::Region& old = tree.regions[row];
-    Subtree& subtree = tree.subtrees[row];
-    const bool background = row == background_row;
-    const double side = background && !std::isfinite(region.partition.max_breadth)
-                            ? subtree.cell_side
-                            : cell_side_of(tree, region);
-    if (!background)
-        note_move(tree, row, RegionTest(old.settings).bounds());
-    if (same_cells(subtree, region.partition, side)) {
-        subtree.settings = region.partition;
-    } else {
-        lay_cells_anew(tree, row, region.partition, side, clusters);
-        old.laid_anew = tree.unsettled = true;
-    }
-    old.settings = region;
+    RegionOfInterest same_place = region;
+    same_place.partition = tree.regions[row].settings.partition;
+    if (row != background_row && same_place != tree.regions[row].settings)
+        note_move(tree, row, RegionTest(tree.regions[row].settings).bounds());
+    partition(tree, row, region, clusters);
+    tree.regions[row].settings = region;
+}
+
+void set_detail(SlodTree& tree, const Detail& detail, ClusterTable& clusters)
+{
+    tree.detail = detail;
+    for (std::size_t row = 0; row < tree.regions.size(); ++row)
+        if (tree.regions[row].open)
+            partition(tree, RegionRow(row), tree.regions[row].settings, clusters);
 }
 
 void close_region(SlodTree& tree, RegionRow row)

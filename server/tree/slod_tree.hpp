@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tree/detail.hpp"
 #include "tree/region_index.hpp"
 #include "tree/subtree.hpp"
 
@@ -23,12 +24,12 @@ struct PoolRef {
 struct SlodTree {
     /// A row's region.
     struct Region {
-        RegionOfInterest settings;
-        std::uint64_t number = 0; ///< of its opening, never used again: the earlier of equals takes
-        bool open = false;        ///< closed ones give their clusters away and are empty after an update
-        bool moved = false;       ///< it came, went or changed its place since settle()
-        bool laid_anew = false;   ///< its cells did
-        Box before;               ///< where it was at the last settle(), when it has moved
+        RegionOfInterest settings; ///< as asked for; the subtree has them at the tree's detail
+        std::uint64_t number = 0;  ///< of its opening, never used again: the earlier of equals takes
+        bool open = false;         ///< closed ones give their clusters away and are empty after an update
+        bool moved = false;        ///< it came, went or changed its place since settle()
+        bool laid_anew = false;    ///< its cells did
+        Box before;                ///< where it was at the last settle(), when it has moved
     };
 
     /// With nothing but the background.
@@ -37,7 +38,9 @@ struct SlodTree {
     std::vector<Subtree> subtrees; ///< by row
     std::vector<Region> regions;   ///< by row
     RegionIndex index;             ///< of the open ones
+    Detail detail;                 ///< of all regions
     std::uint64_t openings = 0;    ///< regions opened so far
+    std::uint64_t reinserted = 0;  ///< clusters put into cells anew so far
     bool unsettled = false;        ///< a region changed since settle()
 
     Subtree& of(const PoolRef& ref) { return subtrees[ref.region]; }
@@ -58,6 +61,10 @@ RegionRow open_region(SlodTree& tree, const RegionOfInterest& region);
 /// Gives an open region, or the background, a new place or new parameters. When its grid's cells change, all
 /// its clusters are put into cells anew.
 void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region, ClusterTable& clusters);
+
+/// Gives all regions another detail. Clusters follow in the updates to come, but where a grid's cells change:
+/// there they are put into cells anew.
+void set_detail(SlodTree& tree, const Detail& detail, ClusterTable& clusters);
 
 /// Closes an open region; what it holds is for others to take.
 void close_region(SlodTree& tree, RegionRow row);
@@ -83,6 +90,7 @@ struct UpdateCounts {
     std::uint64_t strays_inserted = 0;  ///< re-formed members that joined a living cluster
     std::uint64_t strays_founding = 0;  ///< re-formed members that started a cluster in a pool not due
     std::uint64_t crossings = 0;        ///< clusters that moved to another pool
+    std::uint64_t reinserted = 0;       ///< clusters put into cells of another size or binning
     std::uint64_t splits = 0;           ///< clusters split for size or breadth
     std::uint64_t merges = 0;
     std::uint64_t nodes_searched = 0; ///< k-d nodes looked at for clusters that left their leaf or region

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int deepest = 64;
 constexpr std::uint32_t smallest_pool = 16;
+/// Shares of the maximum size, where dithered: the least at which clusters are split, and to which they grow.
+constexpr double least_split = 0.8, grown = 0.75;
 
 NodeId take_node_pair(Subtree& tree)
 {
@@ -135,6 +137,26 @@ Subtree::Subtree(const RegionSettings& region_settings, std::uint16_t region_ind
     : settings(region_settings), region(region_index), cell_side(grid_cell_side)
 {
     SLOD_ASSERT(cell_side > 0 && std::isfinite(cell_side));
+}
+
+std::uint32_t Subtree::max_cluster_size() const
+{
+    return std::uint32_t(dithered ? std::ceil(settings.max_cluster_size) : settings.max_cluster_size);
+}
+
+std::uint32_t Subtree::growth_limit() const
+{
+    return dithered ? std::max(std::uint32_t(grown * settings.max_cluster_size), 1U) : max_cluster_size();
+}
+
+double Subtree::split_size(std::uint64_t formation) const
+{
+    if (!dithered)
+        return max_cluster_size();
+    // Multiples of the golden ratio, by their fractions, are spread evenly (Weyl).
+    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;
+    const double fraction = std::ldexp(double((formation * golden_ratio) >> 11), -53);
+    return std::max(settings.max_cluster_size * (least_split + (1 - least_split) * fraction), 1.0);
 }
 
 std::uint32_t Subtree::pool_limit() const

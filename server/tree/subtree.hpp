@@ -54,7 +54,8 @@ struct Pool {
 struct Subtree {
     Subtree(const RegionSettings& settings, std::uint16_t region_index, double grid_cell_side);
 
-    RegionSettings settings;
+    RegionSettings settings; ///< at the tree's detail
+    bool dithered = false;   ///< Detail's
     std::uint16_t region = 0;
     double cell_side = 1; ///< scene length
     CellMap cells;
@@ -64,7 +65,15 @@ struct Subtree {
     std::vector<NodeId> free_roots;
     std::vector<PoolId> free_pools;
 
-    std::uint32_t max_cluster_size() const { return std::uint32_t(settings.max_cluster_size); }
+    /// In whole particles: floored or, where dithered, rounded up, as some clusters are to have one more.
+    std::uint32_t max_cluster_size() const;
+    /// Particles up to which clusters grow, by merging or by births.
+    std::uint32_t growth_limit() const;
+    /// Particles above which the cluster of this formation number is split. Where dithered, that differs from
+    /// cluster to cluster: else a change of the maximum size by one would split all full ones at once, or
+    /// none. Clusters then grow to less than the least of these sizes, so that none is split right after.
+    double split_size(std::uint64_t formation) const;
+
     std::uint32_t pool_limit() const; ///< members of a pool, at most: a goal
     std::size_t pool_count() const { return pools.size() - free_pools.size(); }
 };

@@ -169,7 +169,7 @@ std::map<std::string, json> regions_by_log(const std::filesystem::path& file)
         const std::string command = line.value("command", "");
         if (command == "remove_region")
             regions.erase(line.at("region"));
-        else if (!command.empty())
+        else if (line.contains("region"))
             regions[line.at("region")] = line.at("settings");
     }
     return regions;

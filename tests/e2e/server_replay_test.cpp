@@ -119,5 +119,19 @@ TEST_F(Replay, FindsTheRecordedParticlesAndRefusesOthers)
     EXPECT_TRUE(contains(other.output, data)) << other.output;
 }
 
+// N10: what a controller decides depends on the clock, but the log has it.
+TEST_F(Replay, AgreesThoughAControllerHeldTheFrameRate)
+{
+    for (const char* mode : {"smooth", "paper"}) {
+        const ServerRun held =
+            run_server({scene_, "--no-dds", "--frames", "200", "--set", "server.frame_rate=300", "--set",
+                        std::string("control.mode=\"") + mode + '"', "--output-dir", folder_});
+        EXPECT_EQ(held.exit_code, 0) << held.output;
+        EXPECT_TRUE(contains(file_content(log_), "set_detail")) << mode;
+        const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds", "--threads", "3"});
+        EXPECT_EQ(replay.exit_code, 0) << mode << ": " << replay.output;
+    }
+}
+
 } // namespace
 } // namespace slod

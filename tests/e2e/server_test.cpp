@@ -30,8 +30,9 @@ TEST_F(Server, PaceThreadsAndWireDoNotChangeTheOutcome)
 {
     const Json expected = reported({"--frames", "30"})["state_hash"];
     EXPECT_EQ(reported({"--frames", "30", "--threads", "1"})["state_hash"], expected);
-    const ServerRun paced = run_server({scene_, "--frames", "30", "--domain", "117", "--set",
-                                        "server.frame_rate=1000", "--report", report_});
+    const ServerRun paced =
+        run_server({scene_, "--frames", "30", "--domain", "117", "--set", "server.frame_rate=1000", "--set",
+                    "control.mode=\"off\"", "--report", report_});
     EXPECT_EQ(paced.exit_code, 0) << paced.output;
     EXPECT_EQ(Json::parse(file_content(report_))["state_hash"], expected);
     EXPECT_NE(reported({"--frames", "30", "--set", "seed=2"})["state_hash"], expected)

@@ -21,6 +21,8 @@ Snapshot snapshot(std::uint64_t frame, double forces_ms)
     snapshot.counts.born = 3;
     snapshot.counts.interactions = 100;
     snapshot.profile[Phase::Forces] = forces_ms;
+    snapshot.regions.push_back(
+        {.row = 0, .clusters = 20, .particles = 1'234'567, .max_cluster_size = 23.5, .max_breadth = 1});
     return snapshot;
 }
 
@@ -147,8 +149,8 @@ TEST(Status, NamesThePlannedPhasesAlone)
     LoopMeans means;
     means.profile[Phase::Forces] = 7.5;
     means.profile[Phase::Emit] = 1;
-    for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan()),
-                                    status_record(snapshot(8, 0), means, gravity_plan())}) {
+    for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan(), {}),
+                                    status_record(snapshot(8, 0), means, gravity_plan(), {})}) {
         EXPECT_NE(text.find("7.5"), std::string::npos) << text;
         EXPECT_NE(text.find("forces"), std::string::npos) << text;
         EXPECT_EQ(text.find("emit"), std::string::npos) << text;
@@ -163,17 +165,29 @@ TEST(Status, TheLongestPhaseComesFirst)
     means.profile[Phase::Forces] = 7;
     Plan plan = gravity_plan();
     plan.runs[std::size_t(Phase::Update)] = true;
-    EXPECT_NE(status_line(snapshot(8, 0), means, plan).find("forces 7.0 update 2.0"), std::string::npos);
+    EXPECT_NE(status_line(snapshot(8, 0), means, plan, {}).find("forces 7.0 update 2.0"), std::string::npos);
 }
 
 TEST(Status, IsReadableForPeopleAndForPrograms)
 {
     LoopMeans means;
     means.real_time_factor = 1;
-    EXPECT_NE(status_line(snapshot(8, 0), means, {}).find("x1.00  1,234,567 particles"), std::string::npos);
+    EXPECT_NE(status_line(snapshot(8, 0), means, {}, {}).find("x1.00  1,234,567 particles"),
+              std::string::npos);
     means.real_time_factor = 3.15576e15;
-    EXPECT_NE(status_line(snapshot(8, 0), means, {}).find("100 Myr/s"), std::string::npos);
-    EXPECT_NE(status_record(snapshot(8, 0), means, {}).find(" particles=1234567 "), std::string::npos);
+    EXPECT_NE(status_line(snapshot(8, 0), means, {}, {}).find("100 Myr/s"), std::string::npos);
+    EXPECT_NE(status_record(snapshot(8, 0), means, {}, {}).find(" particles=1234567 "), std::string::npos);
+}
+
+TEST(Status, SaysHowTheFrameRateIsHeldWhereAnythingHoldsIt)
+{
+    const Regulator::Report held{
+        .mode = ControlMode::Smooth, .state = ControlState::Holding, .target_ms = 26};
+    EXPECT_NE(status_line(snapshot(8, 0), {}, {}, held).find("20 clusters of 23.5, holding"),
+              std::string::npos);
+    EXPECT_NE(status_record(snapshot(8, 0), {}, {}, held).find(" max_cluster_size=23.5 control=holding "),
+              std::string::npos);
+    EXPECT_EQ(status_line(snapshot(8, 0), {}, {}, {}).find("23.5"), std::string::npos);
 }
 
 } // namespace

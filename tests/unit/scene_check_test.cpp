@@ -243,7 +243,7 @@ TEST(SceneCheck, AnInstructionSetThatDoesNotRunHereIsRefusedWithThoseThatDo)
     for (const simd::KernelTable* table : simd::runnable_kernels())
         runnable += ", " + std::string(table->name);
     for (std::size_t row = 0; row < names(InstructionSet{}).size(); ++row) {
-        scene.server.isa = InstructionSet(row);
+        scene.loop.server.isa = InstructionSet(row);
         const std::string name(names(InstructionSet{})[row]);
         if (simd::kernels(name) != nullptr)
             EXPECT_TRUE(problems(scene).empty()) << name;

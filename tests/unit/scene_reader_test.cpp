@@ -12,7 +12,7 @@ TEST(SceneReader, KeysThatAreAbsentKeepTheirDefaults)
     const Scene scene = scene_of(minimal_scene);
     EXPECT_EQ(scene.simulation.seed, SimulationSettings{}.seed);
     EXPECT_EQ(scene.simulation.motion.clock, MotionSettings{}.clock);
-    EXPECT_EQ(scene.server.frame_rate, ServerSettings{}.frame_rate);
+    EXPECT_EQ(scene.loop.server.frame_rate, ServerSettings{}.frame_rate);
     EXPECT_EQ(scene.wire.max_clusters, WireSettings{}.max_clusters);
 }
 

@@ -1,5 +1,6 @@
 #include "scene_support.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -165,7 +166,9 @@ Scene random_scene(std::uint64_t seed)
         simulation.motion.merged_velocities = MergedVelocities::Keep;
         simulation.motion.build_respects_limits = false;
     }
-    scene.server.isa = InstructionSet(scrambler.below(2)); // the others do not run everywhere
+    std::tie(scene.loop.control.smallest_cluster_size, scene.loop.control.largest_cluster_size) =
+        std::minmax({scene.loop.control.smallest_cluster_size, scene.loop.control.largest_cluster_size});
+    scene.loop.server.isa = InstructionSet(scrambler.below(2)); // the others do not run everywhere
     scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;
     scene.initial.fallback = InitialModel::None;
     if (scene.initial.model == InitialModel::None)

@@ -62,7 +62,6 @@ inline Publisher::Session made_up_session()
     return {.scene_title = "made up",
             .units = {.length_m = 3.0857e19, .mass_kg = 1.989e40, .time_s = 3.0857e16},
             .time_step = 1.0 / 60,
-            .frame_rate_target_hz = 60,
             .particles = 123,
             .threads = 2,
             .isa = "baseline",

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "control/controller.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "app/scene_editor.hpp"
+#include "scene/server_settings.hpp"
+#include "sim/simulation.hpp"
+#include "sim/snapshot.hpp"
+
+namespace slod {
+
+/// Holds the frame rate: tells a controller how long frames work, and has done what it decides. Belongs to
+/// the simulation's thread.
+class Regulator {
+public:
+    /// How it goes, for people.
+    struct Report {
+        ControlMode mode = ControlMode::Off;
+        ControlState state = ControlState::Off;
+        double target_ms = 0;        ///< work that a frame is to take; 0: there is no controller
+        std::uint64_t decisions = 0; ///< changes of detail so far
+    };
+
+    /// Takes up other settings and other regions, where they are. Another controller goes on from the detail
+    /// that the last one left; without one the scene has its own again. Where nothing can be turned, as in a
+    /// scene planned without clusters, there is none.
+    void set(const LoopSettings& settings, const SceneEditor& editor, const Simulation& simulation);
+
+    /// Takes in a frame that worked for so long.
+    void add(const Snapshot& snapshot, double work_ms);
+
+    /// Gives the simulation the detail that is decided on for `frame`, the next to run.
+    void apply(SceneEditor& editor, std::uint64_t frame);
+
+    Report report() const;
+
+private:
+    ControlSettings settings_{.mode = ControlMode::Off};
+    double frame_rate_hz_ = 0;
+    std::uint64_t revision_ = 0; ///< of the regions that the scope is of
+    std::unique_ptr<Controller> controller_;
+    std::optional<Detail> decided_;
+    std::uint64_t decisions_ = 0;
+};
+
+} // namespace slod

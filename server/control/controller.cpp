@@ -1,0 +1,29 @@
+#include "control/controller.hpp"
+
+#include "control/paper_controller.hpp"
+#include "control/smooth_controller.hpp"
+
+namespace slod {
+
+std::unique_ptr<Controller> make_controller(const ControlSettings& settings, const ControlScope& scope,
+                                            const Detail& detail)
+{
+    switch (settings.mode) {
+    case ControlMode::Paper:
+        return std::make_unique<PaperController>(settings, scope, detail);
+    case ControlMode::Smooth:
+        return std::make_unique<SmoothController>(settings, scope, detail);
+    case ControlMode::Off:
+        break;
+    }
+    return nullptr;
+}
+
+Problems problems(const ControlSettings& control)
+{
+    if (control.smallest_cluster_size > control.largest_cluster_size)
+        return {"smallest_cluster_size is above largest_cluster_size; exchange them."};
+    return {};
+}
+
+} // namespace slod

@@ -1,0 +1,146 @@
+#include "control/smooth_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slod {
+namespace {
+
+/// Share of an error that is taken up at once. Where the work grows faster than the clusters, as in all
+/// pairs, the whole of it would swing.
+constexpr double gain = 0.9;
+constexpr double most_change = 0.05; ///< of the output in a frame
+constexpr double rest = 0.02;        ///< error within which the output rests
+constexpr double leave = 0.04;       ///< and above which it no longer does
+constexpr double reached = 0.05;     ///< error up to which the target counts as met
+/// Frames in which clusters follow, roughly: splits are swept over 8 frames, merges over 16.
+constexpr double lag_frames = 6;
+constexpr double fill_frames = 6;
+constexpr double steady = 0.03; ///< difference between output and lagged output at which the fill is learned
+constexpr std::size_t few = 5;  ///< frames of the median where the error is large
+constexpr double large = 0.1;   ///< such an error
+constexpr double lever_step = 1.4142135623730951;
+constexpr int patience = 30; ///< frames that ask for a turn of the further levers before there is one
+constexpr double half_size =
+    0.7; ///< below the largest output: levers are turned back, which costs 0.35 at most
+
+} // namespace
+
+const std::array<SmoothController::Lever, 3> SmoothController::levers{{
+    {&Detail::opening, &ControlScope::opening, &ControlSettings::largest_opening},
+    {&Detail::life, &ControlScope::life, &ControlSettings::largest_life},
+    {&Detail::breadth, &ControlScope::breadth, &ControlSettings::largest_breadth},
+}};
+
+SmoothController::SmoothController(const ControlSettings& settings, const ControlScope& scope,
+                                   const Detail& detail)
+    : settings_(settings), scope_(scope), detail_(detail), output_(std::log(detail.cluster_size)),
+      lagged_(output_)
+{
+    detail_.least_size = settings.smallest_cluster_size;
+    detail_.most_size = settings.largest_cluster_size;
+    detail_.dithered = true;
+}
+
+void SmoothController::set_scope(const ControlScope& scope)
+{
+    scope_ = scope;
+    turn_frames_ = 0;
+}
+
+double SmoothController::least_output() const
+{
+    return std::log(std::min(settings_.smallest_cluster_size / scope_.most_size, 1.0));
+}
+
+double SmoothController::most_output() const
+{
+    return std::log(std::max(settings_.largest_cluster_size / scope_.least_size, 1.0));
+}
+
+Detail SmoothController::next(const FrameWork& work)
+{
+    if (!(work.work_ms > 0 && std::isfinite(work.work_ms)) || work.clusters == 0)
+        return detail_;
+    const double clusters = std::log(double(work.clusters));
+    const double crowding = clusters - std::log(double(work.particles));
+    if (frames_ == 0)
+        fill_ = crowding + output_;
+    costs_[frames_++ % window] = std::log(work.work_ms) - clusters;
+    if (frames_ < few)
+        return detail_;
+    const auto error_over = [&](std::size_t frames) {
+        return median_cost(frames) + clusters - std::log(work.target_ms);
+    };
+    const double quick = error_over(few);
+    const double error = std::abs(quick) > large ? quick : error_over(std::min(frames_, window));
+    turn_size(error, crowding);
+    turn_levers(error);
+    judge(error);
+    detail_.cluster_size = std::exp(output_);
+    return detail_;
+}
+
+double SmoothController::median_cost(std::size_t frames) const
+{
+    std::array<double, window> recent{};
+    for (std::size_t i = 0; i < frames; ++i)
+        recent[i] = costs_[(frames_ - 1 - i) % window];
+    const auto middle = recent.begin() + std::ptrdiff_t(frames / 2);
+    std::nth_element(recent.begin(), middle, recent.begin() + std::ptrdiff_t(frames));
+    return *middle;
+}
+
+void SmoothController::turn_size(double error, double crowding)
+{
+    const bool resting = std::abs(error) < (state_ == ControlState::Holding ? leave : rest);
+    if (!resting) {
+        const double wanted = fill_ - crowding + gain * error;
+        output_ += std::clamp(wanted - output_, -most_change, most_change);
+        output_ = std::clamp(output_, least_output(), most_output());
+    }
+    lagged_ += (output_ - lagged_) / lag_frames;
+    if (std::abs(output_ - lagged_) < steady)
+        fill_ += (crowding + lagged_ - fill_) / fill_frames;
+}
+
+void SmoothController::turn_levers(double error)
+{
+    const bool slow = error > reached && output_ == most_output();
+    const bool small = output_ < most_output() - half_size;
+    turn_frames_ = slow || small ? turn_frames_ + 1 : 0;
+    exhausted_ = exhausted_ && slow;
+    if (turn_frames_ < patience)
+        return;
+    turn_frames_ = 0;
+    exhausted_ = !turn_lever(slow) && slow;
+}
+
+bool SmoothController::turn_lever(bool coarser)
+{
+    const auto turn = [&](const Lever& lever) {
+        double& factor = detail_.*lever.factor;
+        const double wanted = std::clamp(coarser ? factor * lever_step : factor / lever_step, 1.0,
+                                         std::max(settings_.*lever.most, 1.0));
+        if (!(scope_.*lever.there) || wanted == factor)
+            return false;
+        factor = wanted;
+        return true;
+    };
+    return coarser ? std::any_of(levers.begin(), levers.end(), turn)
+                   : std::any_of(levers.rbegin(), levers.rend(), turn);
+}
+
+void SmoothController::judge(double error)
+{
+    if (exhausted_)
+        state_ = ControlState::Unreachable;
+    else if (error < -reached && output_ == least_output())
+        state_ = ControlState::Finest;
+    else if (std::abs(error) < rest)
+        state_ = ControlState::Holding;
+    else if (std::abs(error) > leave)
+        state_ = ControlState::Adjusting;
+}
+
+} // namespace slod

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "control/controller.hpp"
+
+#include <array>
+
+namespace slod {
+
+/// Holds a frame's work at its target without a limit cycle. It turns the factor of all maximum cluster
+/// sizes; clusters follow that many frames later, but the work follows the clusters at once. So it
+///
+///  - says from the work and the clusters of the same frames which number of clusters would be right,
+///  whatever
+///    is still on its way;
+///  - and asks for the sizes at which there will be so many. How full clusters are, particles to maximum
+///  size,
+///    is learned while nothing changes: the integral part, which cannot wind up, as what it learns from is
+///    what there is. Where clusters do not follow they seem to be emptier, and it asks for more.
+///
+/// The work per cluster is a median over the last frames, of few where the error is large and of more where
+/// it is small: an outlier, or a clock that jumps, changes nothing. Within a band about the target the output
+/// rests, and is left only where the error is above twice that. The output changes by no more than 5 % a
+/// frame, and clusters split at sizes of their own (Detail), so that few of them change in any frame.
+///
+/// Where clusters are at their largest and that is not enough, other levers follow in steps, in the order
+/// opening, life, breadth; where clusters are less than half that large they go back in reverse.
+class SmoothController final : public Controller {
+public:
+    SmoothController(const ControlSettings& settings, const ControlScope& scope, const Detail& detail);
+
+    Detail next(const FrameWork& work) override;
+    ControlState state() const override { return state_; }
+    void set_scope(const ControlScope& scope) override;
+
+private:
+    /// A further lever: where it is in the detail, whether the scene has it, and its largest factor.
+    struct Lever {
+        double Detail::*factor;
+        bool ControlScope::*there;
+        double ControlSettings::*most;
+    };
+    static const std::array<Lever, 3> levers;
+
+    /// Of the logarithms of work per cluster over the last `frames`.
+    double median_cost(std::size_t frames) const;
+    /// `error`: logarithm of work over target. `crowding`: of clusters over particles.
+    void turn_size(double error, double crowding);
+    void turn_levers(double error);
+    /// Turns the first lever that can be turned, or the last that was; false when there is none.
+    bool turn_lever(bool coarser);
+    void judge(double error);
+
+    double least_output() const; ///< where all regions have their smallest clusters
+    double most_output() const;
+
+    ControlSettings settings_;
+    ControlScope scope_;
+    Detail detail_;
+    ControlState state_ = ControlState::Adjusting;
+
+    static constexpr std::size_t window = 15; ///< frames remembered
+    std::array<double, window> costs_{};      ///< logarithm of work per cluster, by frame modulo the window
+    std::size_t frames_ = 0;                  ///< taken in so far
+    double output_;                           ///< logarithm of the cluster size's factor
+    double lagged_;                           ///< the same, as the clusters follow it
+    double fill_ = 0;                         ///< crowding + output once clusters have followed
+    int turn_frames_ = 0;                     ///< in a row that asked for a turn of the further levers
+    bool exhausted_ = false;                  ///< none is left to turn
+};
+
+} // namespace slod

@@ -1,0 +1,90 @@
+#include "tree/pairing.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/parallel.hpp"
+
+namespace slod {
+namespace {
+
+constexpr std::uint64_t merge_period = 16; ///< every pool looks for merges once in so many frames
+
+} // namespace
+
+void Pairing::reserve(std::size_t clusters)
+{
+    partner_.reserve(clusters);
+    balls_.reserve(clusters);
+}
+
+void Pairing::find(const SlodTree& tree, const ClusterStore& store, std::uint64_t frame,
+                   std::span<const Vector3d> surroundings, std::vector<ClusterSlot>& pairs)
+{
+    const ClusterTable& clusters = store.clusters;
+    partner_.resize(clusters.slot_count());
+    balls_.resize(clusters.slot_count());
+    pairs.clear();
+    for (const Subtree& subtree : tree.subtrees) {
+        if (subtree.growth_limit() < 2)
+            continue;
+        const Search search{subtree, store, frame, surroundings[subtree.region],
+                            MergeRules(subtree.settings)};
+        const std::size_t turn = frame % merge_period;
+        const std::size_t turns = (subtree.pools.size() + merge_period - 1 - turn) / merge_period;
+        for_each_block(turns, 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                pair_up(search, subtree.pools[i * merge_period + turn]);
+        });
+        for (std::size_t i = 0; i < turns; ++i)
+            for (ClusterSlot a = subtree.pools[i * merge_period + turn].first; a.valid();
+                 a = clusters.next[a.index])
+                if (const ClusterSlot b = partner_[a.index]; b.valid() && a < b)
+                    pairs.insert(pairs.end(), {a, b});
+    }
+}
+
+/// Leaves those out whom even the smallest in the pool would make too large.
+void Pairing::pair_up(const Search& search, const Pool& pool)
+{
+    const ClusterTable& clusters = search.store.clusters;
+    std::uint32_t smallest = std::numeric_limits<std::uint32_t>::max();
+    for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index])
+        smallest = std::min(smallest, clusters.count[slot.index]);
+    for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index]) {
+        const bool may = clusters.count[slot.index] + smallest <= search.tree.growth_limit();
+        partner_[slot.index] = may ? ClusterSlot{} : slot;
+        if (may)
+            balls_[slot.index] = velocity_ball(search.store, slot.index, search.frame, search.reference);
+    }
+    for (ClusterSlot a = pool.first; a.valid(); a = clusters.next[a.index]) {
+        if (partner_[a.index].valid())
+            continue;
+        if (const ClusterSlot b = nearest_later(search, a); b.valid()) {
+            partner_[a.index] = b;
+            partner_[b.index] = a;
+        }
+    }
+}
+
+ClusterSlot Pairing::nearest_later(const Search& search, ClusterSlot cluster) const
+{
+    const ClusterTable& clusters = search.store.clusters;
+    const std::size_t a = cluster.index;
+    const std::uint32_t most = search.tree.growth_limit() - clusters.count[a];
+    ClusterSlot nearest;
+    double nearest_squared = std::numeric_limits<double>::infinity();
+    for (ClusterSlot b = clusters.next[a]; b.valid(); b = clusters.next[b.index]) {
+        if (partner_[b.index].valid() || clusters.count[b.index] > most)
+            continue;
+        const double squared = (clusters.position[b.index] - clusters.position[a]).squaredNorm();
+        if (squared >= nearest_squared || !search.rules.move_alike(balls_[a], balls_[b.index]) ||
+            !search.rules.fit(search.store, cluster, b, search.frame))
+            continue;
+        nearest = b;
+        nearest_squared = squared;
+    }
+    return nearest;
+}
+
+} // namespace slod

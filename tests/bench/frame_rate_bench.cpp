@@ -1,0 +1,302 @@
+// The first experiment of O'Brien, Fisher and Lin 2001 (section 6.1, Figure 8): a fountain whose streams start
+// one after the other, without clusters, under the paper's rule and under the smooth controller, at a rate of
+// droplets of which this machine needs one and a half frame periods for one stream without clusters.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double frame_rate = 30, period_ms = 1000 / frame_rate;
+constexpr int stream_starts[] = {0, 150, 300}; // frames: 0, 5 and 10 s
+constexpr int frames = 600;
+constexpr int settling = 60; ///< frames after a start that may deviate
+constexpr double load_begin_s = 15, load_s = 5;
+
+struct Frame {
+    double wall_s, step_ms, encode_ms, target_ms, particles, clusters, size, events;
+    double work_ms() const { return step_ms + encode_ms; }
+};
+
+using Settings = std::vector<std::string>; ///< "table.key=value"
+
+std::vector<Frame> read_trace(const std::filesystem::path& file)
+{
+    std::ifstream stream(file);
+    std::vector<std::string> names;
+    std::vector<Frame> all;
+    for (std::string line; std::getline(stream, line);) {
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, ',');)
+            cells.push_back(cell);
+        if (names.empty()) {
+            names = cells;
+            continue;
+        }
+        const auto of = [&](const char* name) {
+            const auto column = std::find(names.begin(), names.end(), name) - names.begin();
+            return std::strtod(cells.at(std::size_t(column)).c_str(), nullptr);
+        };
+        all.push_back({of("wall_s"), of("step_ms"), of("encode_ms"), of("target_ms"), of("particles"),
+                       of("clusters"), of("max_cluster_size"), of("splits") + of("merges")});
+    }
+    return all;
+}
+
+/// Starts a program; its process id.
+pid_t start(const std::vector<std::string>& words)
+{
+    std::vector<char*> arguments;
+    for (const std::string& word : words)
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        if (std::freopen("/dev/null", "w", stdout) == nullptr)
+            _exit(126);
+        execv(arguments[0], arguments.data());
+        _exit(127);
+    }
+    return child;
+}
+
+/// Keeps both of two processors busy for a while.
+pid_t start_load(double after_s, double for_s)
+{
+    const pid_t child = fork();
+    if (child != 0)
+        return child;
+    std::this_thread::sleep_for(std::chrono::duration<double>(after_s));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(for_s);
+    const auto spin = [end] {
+        while (std::chrono::steady_clock::now() < end) {
+        }
+    };
+    std::jthread other(spin);
+    spin();
+    other.join();
+    _exit(0);
+}
+
+void await(pid_t child)
+{
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw std::runtime_error("a process of the benchmark failed; run slod-server on the scene to see why");
+}
+
+class Experiment {
+public:
+    explicit Experiment(const std::filesystem::path& folder) : trace_(folder / "trace.csv") {}
+
+    std::vector<Frame> run(int frame_count, Settings settings, bool paced, bool loaded = false) const
+    {
+        std::vector<std::string> words{SLOD_SERVER,          SLOD_SCENE, "--no-dds", "--frames",
+                                       std::to_string(frame_count), "--trace",  trace_};
+        if (!paced)
+            words.emplace_back("--free-run");
+        for (int stream = 0; stream < 3; ++stream)
+            settings.push_back("emitter." + std::to_string(stream) + ".rate=" + std::to_string(rate));
+        for (const std::string& setting : settings)
+            words.insert(words.end(), {"--set", setting});
+        const pid_t server = start(words);
+        const pid_t load = loaded ? start_load(load_begin_s, load_s) : 0;
+        await(server);
+        if (loaded)
+            await(load);
+        return read_trace(trace_);
+    }
+
+    double rate = 30'000; ///< droplets a second of each stream
+
+private:
+    std::filesystem::path trace_;
+};
+
+Settings unclustered()
+{
+    Settings settings{"background.max_cluster_size=1"};
+    for (int region = 0; region < 3; ++region)
+        settings.push_back("region." + std::to_string(region) + ".max_cluster_size=1");
+    return settings;
+}
+
+template <class Value>
+double quantile(const std::vector<Frame>& all, std::size_t first, std::size_t last, double q, const Value& value)
+{
+    std::vector<double> values;
+    for (std::size_t i = first; i < std::min(last, all.size()); ++i)
+        values.push_back(value(all[i]));
+    std::sort(values.begin(), values.end());
+    return values.empty() ? std::nan("") : values[std::size_t(q * double(values.size() - 1))];
+}
+
+double work(const Frame& frame)
+{
+    return frame.work_ms();
+}
+
+/// Raises the streams until one of them takes one and a half periods of work without clusters.
+void calibrate(Experiment& experiment)
+{
+    for (int round = 0; round < 4; ++round) {
+        const std::vector<Frame> course = experiment.run(130, unclustered(), false);
+        const double ms = quantile(course, 95, 130, 0.5, work);
+        std::printf("%9.0f droplets a second: %6.1f ms without clusters\n", experiment.rate, ms);
+        if (std::abs(ms / (1.5 * period_ms) - 1) < 0.03)
+            return;
+        experiment.rate = std::round(experiment.rate * 1.5 * period_ms / ms / 100) * 100;
+    }
+}
+
+/// What is asked of a controlled run.
+Json judge(const std::vector<Frame>& course, double cap)
+{
+    int near = 0, counted = 0, at_cap = 0;
+    double jump = 0, largest = 0, events = 0;
+    const double median = quantile(course, settling, course.size(), 0.5, work);
+    for (std::size_t i = 0; i < course.size(); ++i) {
+        largest = std::max(largest, course[i].size);
+        at_cap += course[i].size >= cap;
+        const bool settled = std::none_of(std::begin(stream_starts), std::end(stream_starts), [&](int start) {
+            return int(i) >= start && int(i) < start + settling;
+        });
+        jump = i >= std::size_t(settling) ? std::max(jump, course[i].work_ms() / median) : jump;
+        if (!settled)
+            continue;
+        ++counted;
+        near += std::abs(course[i].work_ms() / course[i].target_ms - 1) <= 0.05;
+        events += course[i].events / course[i].clusters;
+    }
+    const auto rate = [&](std::size_t first) {
+        const std::size_t last = course.size() - 1;
+        return double(last - first) / (course[last].wall_s - course[first].wall_s);
+    };
+    return {{"frames_within_5_percent", double(near) / counted},
+            {"work_ms_median", median},
+            {"work_ms_p95", quantile(course, settling, course.size(), 0.95, work)},
+            {"largest_over_median", jump},
+            {"frames_at_largest_size", double(at_cap) / double(course.size())},
+            {"largest_size", largest},
+            {"events_per_cluster_and_frame", events / counted},
+            {"frame_rate_hz_at_the_end", rate(course.size() - 100)}};
+}
+
+/// Frames from the load's begin and from its end until the work stays within a tenth of the target for ten
+/// frames; -1: not before the load ended.
+int settled_after(const std::vector<Frame>& course, double begin_s, double end_s)
+{
+    int since = 0, steady = 0;
+    for (const Frame& frame : course) {
+        if (frame.wall_s < begin_s || frame.wall_s > end_s)
+            continue;
+        ++since;
+        steady = std::abs(frame.work_ms() / frame.target_ms - 1) <= 0.1 ? steady + 1 : 0;
+        if (steady == 10)
+            return since - 10;
+    }
+    return -1;
+}
+
+void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::filesystem::path& folder,
+          const std::string& picture)
+{
+    const std::filesystem::path script_file = folder / "plot.gp";
+    std::ofstream script(script_file);
+    script << "set terminal pngcairo size 1200,1100 font 'sans,11'\nset output '" << picture << "'\n"
+           << "set multiplot layout 3,1\nset key top right\nset xrange [0:" << frames << "]\nset grid\n";
+    const std::vector<std::pair<std::string, std::string>> panels{
+        {"frames per second", "2"}, {"work of a frame [ms]", "3"}, {"maximum cluster size", "4"}};
+    for (const auto& [name, course] : courses) {
+        std::ofstream data(folder / (name + ".dat"));
+        for (std::size_t i = 1; i < course.size(); ++i)
+            data << i << ' ' << 1 / std::max(course[i].wall_s - course[i - 1].wall_s, 1e-6) << ' '
+                 << course[i].work_ms() << ' ' << course[i].size << '\n';
+    }
+    for (const auto& [title, column] : panels) {
+        script << "set ylabel '" << title << "'\n"
+               << (column == "2" ? "set yrange [0:40]\n" : "set logscale y\nset yrange [*:*]\n")
+               << (column == "4" ? "set xlabel 'frame'\n" : "") << "plot ";
+        for (const auto& [name, course] : courses)
+            script << "'" << (folder / (name + ".dat")).string() << "' using 1:" << column
+                   << " with lines title '" << name << "', ";
+        script << (column == "2" ? "30 dashtype 2 lc 'gray' title 'target'\n"
+                   : column == "3" ? std::to_string(0.8 * period_ms) + " dashtype 2 lc 'gray' title 'target'\n"
+                                   : "30 dashtype 2 lc 'gray' title 'largest in the paper'\n");
+    }
+    script.close();
+    if (std::system(("gnuplot " + script_file.string()).c_str()) != 0)
+        throw std::runtime_error("gnuplot failed; ./dev setup installs it");
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try {
+    CLI::App app("The paper's fountain at a held frame rate");
+    bool json = false;
+    double cap = 30;
+    std::string picture;
+    app.add_flag("--json", json, "One JSON object on the last line");
+    app.add_option("--largest", cap, "Largest cluster size that controllers may use");
+    app.add_option("--picture", picture, "Plot rate, work and size over the frames, as PNG");
+    CLI11_PARSE(app, argc, argv);
+
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("slod-frame-rate-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    Experiment experiment(folder);
+    calibrate(experiment);
+
+    const std::string largest = "control.largest_cluster_size=" + std::to_string(cap);
+    std::map<std::string, std::vector<Frame>> courses;
+    courses["without clusters"] = experiment.run(frames, unclustered(), true);
+    courses["paper"] = experiment.run(frames, {largest, "control.mode=\"paper\""}, true);
+    courses["smooth"] = experiment.run(frames, {largest, "control.mode=\"smooth\""}, true);
+    const std::vector<Frame> loaded =
+        experiment.run(750, {"control.mode=\"smooth\"", "control.largest_cluster_size=1000"}, true, true);
+
+    Json result{{"droplets_per_second", experiment.rate}};
+    for (const auto& [name, course] : courses) {
+        result[name] = name == "without clusters"
+                           ? Json{{"work_ms_at_the_end", quantile(course, frames - 100, frames, 0.5, work)}}
+                           : judge(course, cap);
+        std::printf("%s: %s\n", name.c_str(), result[name].dump(2).c_str());
+    }
+    result["faster_at_the_end"] =
+        quantile(courses["without clusters"], frames - 100, frames, 0.5, work) /
+        quantile(courses["smooth"], frames - 100, frames, 0.5, work);
+    result["settled_after_load_frames"] = {settled_after(loaded, load_begin_s, load_begin_s + load_s),
+                                           settled_after(loaded, load_begin_s + load_s, 1e9)};
+    std::printf("with clusters %.1f times faster at the end; settled %s frames after a load of %g s began and ended\n",
+                result["faster_at_the_end"].get<double>(), result["settled_after_load_frames"].dump().c_str(),
+                load_s);
+    if (!picture.empty())
+        plot(courses, folder, picture);
+    std::filesystem::remove_all(folder);
+    if (json)
+        std::printf("%s\n", result.dump().c_str());
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench-frame_rate: %s\n", error.what());
+    return 1;
+}
