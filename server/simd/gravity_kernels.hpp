@@ -43,19 +43,34 @@ struct GravitySources {
     const Real* q; ///< half the squared softening, length^2, >= 0
 };
 
+/// Nodes of a tree that attract by their second moments too: S = sum m o o^T over a node's bodies, o their
+/// offsets from its centre of mass, none longer than their distance from any target.
+template <class Real>
+struct GravityNodes : GravitySources<Real> {
+    const Real *xx, *xy, *xz, *yy, *yz, *zz; ///< 3 S / m, length^2
+    const Real* trace;                       ///< half of theirs
+};
+
 /// Gravity in one precision. With d = source - target and r^2 = |d|^2 + q_target + q_source they add
 ///  - acceleration  sum m d / r^3,
 ///  - tide          sum m (3 d d^T / r^5 - 1 / r^3), the acceleration's derivative by the target's place,
 ///  - potential     -sum m / r.
 ///
+/// and of a node's second moments S
+///  - acceleration  (15/2 d.S.d / r^7 - 3/2 tr S / r^5) d - 3 S d / r^5,
+///  - tide          its derivative.
+///
 /// Source s and target t are the same body, and no pair, when s == t + self. Every other pair counts,
 /// coincident ones too, but for those with r = 0, which contribute nothing. The caller chooses units so
-/// that no m / r^3 overflows. Sources are summed in order: all processors compute the same bits.
+/// that neither m / r^3 nor any r^3 overflows. Sources are summed in order: all processors compute the same
+/// bits.
 template <class Real>
 struct GravityKernels {
     void (*add_acceleration)(const GravityTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);
     void (*add_acceleration_and_tide)(const GravityTargets<Real>&, const GravitySources<Real>&,
                                       std::ptrdiff_t self);
+    void (*add_nodes_acceleration)(const GravityTargets<Real>&, const GravityNodes<Real>&);
+    void (*add_nodes_acceleration_and_tide)(const GravityTargets<Real>&, const GravityNodes<Real>&);
     void (*add_potential)(const PotentialTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);
 };
 

@@ -99,9 +99,10 @@ struct Block {
 template <class Real>
 struct Acceleration {
     using Targets = GravityTargets<Real>;
+    using Sources = GravitySources<Real>;
     Lanes<Real> x = {}, y = {}, z = {};
 
-    void add(const Pairs<Real>& pairs)
+    void add(const Pairs<Real>& pairs, const Sources&, std::size_t)
     {
         const Lanes<Real> pull = pairs.mass_by_r * pairs.inverse_square;
         x += pull * pairs.dx;
@@ -122,11 +123,12 @@ struct Acceleration {
 template <class Real>
 struct AccelerationAndTide {
     using Targets = GravityTargets<Real>;
+    using Sources = GravitySources<Real>;
     Lanes<Real> x = {}, y = {}, z = {};
     Lanes<Real> xx = {}, xy = {}, xz = {}, yy = {}, yz = {}, zz = {};
     Lanes<Real> pulls = {};
 
-    void add(const Pairs<Real>& pairs)
+    void add(const Pairs<Real>& pairs, const Sources&, std::size_t)
     {
         const Lanes<Real> pull = pairs.mass_by_r * pairs.inverse_square;
         const Lanes<Real> ax = pull * pairs.dx;
@@ -164,9 +166,10 @@ struct AccelerationAndTide {
 template <class Real>
 struct Potential {
     using Targets = PotentialTargets<Real>;
+    using Sources = GravitySources<Real>;
     Lanes<Real> depth = {};
 
-    void add(const Pairs<Real>& pairs) { depth -= pairs.mass_by_r; }
+    void add(const Pairs<Real>& pairs, const Sources&, std::size_t) { depth -= pairs.mass_by_r; }
 
     void store(const Targets& targets, std::size_t first) const { add_to(targets.potential + first, depth); }
 };
@@ -178,7 +181,7 @@ struct Potential {
 constexpr std::size_t pairs_ahead = 8;
 
 template <class Real, class Sums>
-void add(const typename Sums::Targets& targets, const GravitySources<Real>& sources, std::ptrdiff_t self)
+void add(const typename Sums::Targets& targets, const typename Sums::Sources& sources, std::ptrdiff_t self)
 {
     const std::size_t ahead = sources.count < pairs_ahead ? sources.count : pairs_ahead;
     Pairs<Real> ring[pairs_ahead];
@@ -196,19 +199,31 @@ void add(const typename Sums::Targets& targets, const GravitySources<Real>& sour
         for (std::size_t s = 0; s < ahead; ++s)
             evaluate(s);
         for (std::size_t s = ahead; s < sources.count; ++s) {
-            sums.add(ring[s % pairs_ahead]);
+            sums.add(ring[s % pairs_ahead], sources, s - ahead);
             evaluate(s);
         }
         for (std::size_t s = sources.count - ahead; s < sources.count; ++s)
-            sums.add(ring[s % pairs_ahead]);
+            sums.add(ring[s % pairs_ahead], sources, s);
         sums.store(targets, first);
     }
 }
+
+} // namespace
+
+} // namespace slod::simd::SLOD_ISA
+
+#include "simd/quadrupole_kernels.inl"
+
+namespace slod::simd::SLOD_ISA {
+
+namespace {
 
 template <class Real>
 constexpr GravityKernels<Real> gravity_kernels = {
     add<Real, Acceleration<Real>>,
     add<Real, AccelerationAndTide<Real>>,
+    add_nodes<Real, NodesAcceleration<Real>>,
+    add_nodes<Real, NodesAccelerationAndTide<Real>>,
     add<Real, Potential<Real>>,
 };
 

@@ -26,8 +26,9 @@ constexpr std::chrono::milliseconds round_length(10);
 
 template <class Real>
 struct Arrays {
-    std::array<std::vector<Real>, 4> at;   // x, y, z, q of the targets
-    std::array<std::vector<Real>, 5> from; // x, y, z, mass, q of the sources
+    std::array<std::vector<Real>, 4> at;     // x, y, z, q of the targets
+    std::array<std::vector<Real>, 5> from;   // x, y, z, mass, q of the sources
+    std::array<std::vector<Real>, 7> extent; // of those that are nodes, and its trace
     std::array<std::vector<Real>, 9> sums;
 
     Arrays()
@@ -41,6 +42,8 @@ struct Arrays {
         for (auto& array : at)
             fill(array, target_count);
         for (auto& array : from)
+            fill(array, source_count);
+        for (auto& array : extent)
             fill(array, source_count);
         for (auto& array : sums)
             array.assign(target_count, 0);
@@ -61,6 +64,12 @@ struct Arrays {
     GravitySources<Real> sources() const
     {
         return {source_count, from[0].data(), from[1].data(), from[2].data(), from[3].data(), from[4].data()};
+    }
+
+    GravityNodes<Real> nodes() const
+    {
+        return {sources(),        extent[0].data(), extent[1].data(), extent[2].data(),
+                extent[3].data(), extent[4].data(), extent[5].data(), extent[6].data()};
     }
 };
 
@@ -91,11 +100,15 @@ nlohmann::ordered_json measure(const KernelTable& table)
     const auto targets = arrays.targets();
     const auto potential_targets = arrays.potential_targets();
     const auto sources = arrays.sources();
+    const auto nodes = arrays.nodes();
     const GravityKernels<Real>& kernels = gravity_kernels<Real>(table);
     return {
         {"acceleration", pairs_per_second([&] { kernels.add_acceleration(targets, sources, no_self); })},
         {"acceleration_and_tide",
          pairs_per_second([&] { kernels.add_acceleration_and_tide(targets, sources, no_self); })},
+        {"nodes", pairs_per_second([&] { kernels.add_nodes_acceleration(targets, nodes); })},
+        {"nodes_and_tide",
+         pairs_per_second([&] { kernels.add_nodes_acceleration_and_tide(targets, nodes); })},
         {"potential", pairs_per_second([&] { kernels.add_potential(potential_targets, sources, no_self); })},
     };
 }
@@ -118,8 +131,8 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
 
     nlohmann::ordered_json rates;
-    std::printf("%-10s %-10s %22s %22s %22s\n", "isa", "precision", "acceleration", "acceleration_and_tide",
-                "potential");
+    std::printf("%-10s %-10s %22s %22s %22s %22s %22s\n", "isa", "precision", "acceleration",
+                "acceleration_and_tide", "nodes", "nodes_and_tide", "potential");
     for (const KernelTable* table : runnable_kernels()) {
         auto& in = rates[table->name];
         print_row(table->name, "float", in["float"] = measure<float>(*table));
