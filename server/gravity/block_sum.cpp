@@ -66,7 +66,7 @@ template <class Real>
 void BlockSum<Real>::add_point(const Vector3d& position, double mass, double q)
 {
     if (source_count_ == most_sources)
-        flush();
+        flush_points();
     sources_.put(source_count_++, position - origin_, mass, q, units_);
 }
 
@@ -76,7 +76,7 @@ void BlockSum<Real>::add_bodies(std::size_t first, std::size_t last)
     const bool own = first <= first_ && last_ <= last;
     while (first < last) {
         if (source_count_ == most_sources)
-            flush();
+            flush_points();
         // Where the first target is, or would be in another chunk; it names no source that is no target, as
         // the targets are one run in the sources.
         if (own && first < last_)
@@ -91,38 +91,84 @@ void BlockSum<Real>::add_bodies(std::size_t first, std::size_t last)
 }
 
 template <class Real>
-void BlockSum<Real>::flush()
+void BlockSum<Real>::add_node(const ForceView::Node& node, const Symmetric3& second_moments)
 {
-    if (source_count_ == 0)
-        return;
+    if (node_count_ == most_nodes)
+        flush_nodes();
+    nodes_.put(node_count_, node.centre - origin_, node.mass, node.q, units_);
+    nodes_.put_moments(node_count_++, second_moments, node.mass, units_);
+}
+
+template <class Real>
+simd::GravityTargets<Real> BlockSum<Real>::cleared_sums()
+{
     for (std::size_t sum = 0; sum < used_sums(); ++sum)
         std::fill_n(partial_[sum].begin(), padded_count_, Real(0));
     const auto unless_absent = [this](auto& column) { return tide_ ? column.data() : nullptr; };
-    const simd::GravityTargets<Real> targets{padded_count_,
-                                             targets_.x.data(),
-                                             targets_.y.data(),
-                                             targets_.z.data(),
-                                             targets_.q.data(),
-                                             partial_[0].data(),
-                                             partial_[1].data(),
-                                             partial_[2].data(),
-                                             unless_absent(partial_[3]),
-                                             unless_absent(partial_[4]),
-                                             unless_absent(partial_[5]),
-                                             unless_absent(partial_[6]),
-                                             unless_absent(partial_[7]),
-                                             unless_absent(partial_[8])};
-    const auto kernel = tide_ ? kernels_.add_acceleration_and_tide : kernels_.add_acceleration;
-    kernel(targets,
-           {source_count_, sources_.x.data(), sources_.y.data(), sources_.z.data(), sources_.mass.data(),
-            sources_.q.data()},
-           self_);
+    return {padded_count_,
+            targets_.x.data(),
+            targets_.y.data(),
+            targets_.z.data(),
+            targets_.q.data(),
+            partial_[0].data(),
+            partial_[1].data(),
+            partial_[2].data(),
+            unless_absent(partial_[3]),
+            unless_absent(partial_[4]),
+            unless_absent(partial_[5]),
+            unless_absent(partial_[6]),
+            unless_absent(partial_[7]),
+            unless_absent(partial_[8])};
+}
+
+template <class Real>
+void BlockSum<Real>::take_sums(std::size_t source_count)
+{
     for (std::size_t sum = 0; sum < used_sums(); ++sum)
         for (std::size_t target = 0; target < padded_count_; ++target)
             total_[sum][target] += double(partial_[sum][target]);
-    interactions_ += std::uint64_t(source_count_) * (last_ - first_);
+    interactions_ += std::uint64_t(source_count) * (last_ - first_);
+}
+
+template <class Real>
+void BlockSum<Real>::flush_points()
+{
+    if (source_count_ == 0)
+        return;
+    const auto kernel = tide_ ? kernels_.add_acceleration_and_tide : kernels_.add_acceleration;
+    kernel(cleared_sums(),
+           {source_count_, sources_.x.data(), sources_.y.data(), sources_.z.data(), sources_.mass.data(),
+            sources_.q.data()},
+           self_);
+    take_sums(source_count_);
     source_count_ = 0;
     self_ = simd::no_self;
+}
+
+template <class Real>
+void BlockSum<Real>::flush_nodes()
+{
+    if (node_count_ == 0)
+        return;
+    const auto kernel = tide_ ? kernels_.add_nodes_acceleration_and_tide : kernels_.add_nodes_acceleration;
+    kernel(cleared_sums(), {{node_count_, nodes_.x.data(), nodes_.y.data(), nodes_.z.data(),
+                             nodes_.mass.data(), nodes_.q.data()},
+                            nodes_.xx.data(),
+                            nodes_.xy.data(),
+                            nodes_.xz.data(),
+                            nodes_.yy.data(),
+                            nodes_.yz.data(),
+                            nodes_.zz.data(),
+                            nodes_.trace.data()});
+    take_sums(node_count_);
+    node_count_ = 0;
+}
+
+template <class Real>
+void BlockSum<Real>::flush()
+{
+    flush_points();
+    flush_nodes();
 }
 
 template <class Real>

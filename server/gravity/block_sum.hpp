@@ -55,14 +55,34 @@ struct alignas(64) KernelBodies {
     }
 };
 
+/// A block of nodes as kernels take them.
+template <class Real, std::size_t capacity>
+struct alignas(64) KernelNodes : KernelBodies<Real, capacity> {
+    std::array<Real, capacity> xx, xy, xz, yy, yz, zz; ///< three times the second moments per mass
+    std::array<Real, capacity> trace;                  ///< half of theirs
+
+    void put_moments(std::size_t place, const Symmetric3& moments, double node_mass, const ScaledUnits& units)
+    {
+        const double scale = node_mass > 0 ? 3 / (node_mass * units.length * units.length) : 0;
+        xx[place] = Real(scale * moments.xx);
+        xy[place] = Real(scale * moments.xy);
+        xz[place] = Real(scale * moments.xz);
+        yy[place] = Real(scale * moments.yy);
+        yz[place] = Real(scale * moments.yz);
+        zz[place] = Real(scale * moments.zz);
+        trace[place] = Real(0.5 * scale * moments.trace());
+    }
+};
+
 /// The forces on a block of neighbouring bodies: targets [first, last) of a view, sources added one by one
-/// or in runs, kernels called for a chunk of sources at a time. Positions are relative to the middle of the
-/// block; sums of a chunk are Real, sums of chunks double.
+/// or in runs, kernels called for a chunk of sources at a time, of points or of nodes. Positions are relative
+/// to the middle of the block; sums of a chunk are Real, sums of chunks double.
 template <class Real>
 class BlockSum {
 public:
     static constexpr std::size_t most_targets = 256; ///< a multiple of the kernels' tile
     static constexpr std::size_t most_sources = 512; ///< of one chunk
+    static constexpr std::size_t most_nodes = 256;   ///< of one chunk; no more memory than that of points
 
     /// With `tide`, the tidal tensor is summed too.
     BlockSum(const ForceView& view, const simd::GravityKernels<Real>& kernels, const ScaledUnits& units,
@@ -73,6 +93,9 @@ public:
 
     /// Adds one source that is no body of the view.
     void add_point(const Vector3d& position, double mass, double q);
+
+    /// Adds a node with its second moments; it holds none of the targets.
+    void add_node(const ForceView::Node& node, const Symmetric3& second_moments);
 
     /// Sum over the targets of mass times acceleration / G, by the sources so far.
     Vector3d force();
@@ -91,6 +114,10 @@ private:
     {
         return {total_[0][target], total_[1][target], total_[2][target]};
     }
+    simd::GravityTargets<Real> cleared_sums();
+    void take_sums(std::size_t source_count);
+    void flush_points();
+    void flush_nodes();
     void flush();
 
     const ForceView& view_;
@@ -101,10 +128,11 @@ private:
     bool tide_;
     Vector3d origin_;
     std::uint64_t interactions_ = 0;
-    std::size_t source_count_ = 0;
+    std::size_t source_count_ = 0, node_count_ = 0;
     std::ptrdiff_t self_ = simd::no_self; ///< place of the first target among the sources
     KernelBodies<Real, most_targets> targets_;
     KernelBodies<Real, most_sources> sources_;
+    KernelNodes<Real, most_nodes> nodes_;
     alignas(64) std::array<std::array<Real, most_targets>, sum_count> partial_;
     alignas(64) std::array<std::array<double, most_targets>, sum_count> total_;
 };

@@ -7,6 +7,7 @@
 #include "core/morton.hpp"
 #include "core/parallel.hpp"
 #include "gravity/node_sums.hpp"
+#include "gravity/second_moments.hpp"
 
 namespace slod {
 namespace {
@@ -172,7 +173,8 @@ void fill_bodies(ForceView& view, const ClusterTable& clusters, const GravitySet
 
 } // namespace
 
-void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t regions)
+void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t regions,
+             const GravitySettings& gravity)
 {
     for (auto* column : {&view.x, &view.y, &view.z, &view.mass, &view.q})
         column->reserve(bodies);
@@ -182,12 +184,15 @@ void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t
     // An inner node has two children at least; while one is being built, its path may hold some with one. A
     // halved leaf's parts hold half of leaf_bodies at least.
     view.nodes.reserve(2 * (pools + 2 * bodies / leaf_bodies) + deepest_path);
+    if (gravity.multipoles == Multipoles::Quadrupole)
+        view.second_moments.reserve(view.nodes.capacity());
 }
 
 void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
            const GravitySettings& gravity)
 {
     view.nodes.clear();
+    view.second_moments.clear();
     view.slot.clear();
     view.regions.clear();
     for (const Subtree& subtree : tree.subtrees) {
@@ -203,6 +208,8 @@ void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
     }
     fill_bodies(view, clusters, gravity);
     sum_up_nodes(view);
+    if (gravity.multipoles == Multipoles::Quadrupole)
+        sum_up_second_moments(view);
 }
 
 } // namespace slod

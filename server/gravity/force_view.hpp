@@ -46,7 +46,10 @@ struct ForceView {
     AlignedVector<double> q; ///< half the squared softening and size: eps^2 / 2 + c s
     std::vector<ClusterSlot> slot;
 
-    AlignedVector<Node> nodes;   ///< depth first; one root per region that holds anything
+    AlignedVector<Node> nodes; ///< depth first; one root per region that holds anything
+    /// Of the nodes, sum of m o o^T with o the offset of a body's centre from the node's: mass length^2.
+    /// Empty where none are asked for. Bodies have none of their own: their extent softens them.
+    AlignedVector<Symmetric3> second_moments;
     std::vector<Region> regions; ///< that hold anything, by row; bodies and nodes go region by region
 
     std::size_t body_count() const { return slot.size(); }
@@ -73,7 +76,8 @@ void measure_shapes(ClusterStore& store, const GravitySettings& gravity, double 
                     std::uint64_t frame);
 
 /// Provides memory for views of so many bodies in so many pools of so many regions.
-void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t regions);
+void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t regions,
+             const GravitySettings& gravity);
 
 /// Rebuilds the view of the clusters as they are. The variances must be measured.
 void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,

@@ -10,6 +10,9 @@ Problems problems(const ForceView& view, const ClusterTable& clusters)
     if (view.body_count() != clusters.alive_count())
         found.push_back("the force view has " + std::to_string(view.body_count()) + " bodies for " +
                         std::to_string(clusters.alive_count()) + " clusters");
+    if (!view.second_moments.empty() && view.second_moments.size() != view.nodes.size())
+        found.push_back("the force view has " + std::to_string(view.second_moments.size()) +
+                        " second moments for " + std::to_string(view.nodes.size()) + " nodes");
     for (std::size_t index = 0; index < view.nodes.size(); ++index) {
         const ForceView::Node& node = view.nodes[index];
         const auto report =

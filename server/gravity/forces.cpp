@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/assert.hpp"
 #include "core/make_room.hpp"
 #include "core/parallel.hpp"
 #include "gravity/block_sum.hpp"
@@ -52,8 +53,12 @@ std::uint64_t walk(const ForceView& view, const ForceView::Region& region, const
         const bool leaf = node.next == index + 1;
         if (!holds_group) {
             ++tested;
-            if (opening.acts_as_one(node)) {
+            const NodeRole role = opening.role_of(node);
+            if (role == NodeRole::Point)
                 sum.add_point(node.centre, node.mass, node.q);
+            else if (role == NodeRole::Extended)
+                sum.add_node(node, view.second_moments[index]);
+            if (role != NodeRole::Opened) {
                 index = node.next;
                 continue;
             }
@@ -131,6 +136,8 @@ ForceCounts evaluate_gravity(const ForceView& view, const simd::KernelTable& ker
     ForceCounts total;
     if (view.body_count() == 0)
         return total;
+    SLOD_ASSERT(gravity.multipoles == Multipoles::Monopole ||
+                view.second_moments.size() == view.nodes.size());
     find_runs(view, gravity.direct_below, lists.runs);
     lists.counts.resize(lists.runs.size());
     const ScaledUnits units = units_of(view);

@@ -32,7 +32,7 @@ void reserve(ForceLists& lists, std::size_t bodies);
 /// direct_below act they are sums over all pairs, else by group walks (Barnes 1990, J. Comput. Phys. 87,
 /// 161): one walk of the tree for each group of neighbouring bodies collects the nodes that may act as one
 /// body, and the bodies of those that may not. The relative criterion compares with the pull of the last
-/// evaluation.
+/// evaluation. The view must be built with the same settings.
 ForceCounts evaluate_gravity(const ForceView& view, const simd::KernelTable& kernels,
                              const GravitySettings& gravity, double gravitational_constant, ForceLists& lists,
                              ClusterTable& clusters);

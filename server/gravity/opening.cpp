@@ -22,7 +22,8 @@ double smallest_pull(const ForceView& view, const TargetRun& group, const Aligne
 Opening::Opening(const ForceView& view, const TargetRun& group, const GravitySettings& gravity,
                  double gravitational_constant, const AlignedVector<double>& pulls)
     : lower_(view.position(group.first)), upper_(lower_),
-      angle_squared_(std::min(gravity.opening_angle, guard) * std::min(gravity.opening_angle, guard))
+      angle_squared_(std::min(gravity.opening_angle, guard) * std::min(gravity.opening_angle, guard)),
+      accepted_(gravity.multipoles == Multipoles::Quadrupole ? NodeRole::Extended : NodeRole::Point)
 {
     for (std::uint32_t body = group.first; body < group.last; ++body) {
         lower_ = lower_.cwiseMin(view.position(body));
@@ -30,9 +31,11 @@ Opening::Opening(const ForceView& view, const TargetRun& group, const GravitySet
     }
     const double smallest = smallest_pull(view, group, pulls);
     relative_ = gravity.opening == OpeningCriterion::Relative && smallest > 0;
-    if (relative_)
-        allowed_ = gravity.force_tolerance *
-                   std::max(smallest / gravitational_constant, least_share * gross_pull(view, group));
+    if (!relative_)
+        return;
+    allowed_ = gravity.force_tolerance *
+               std::max(smallest / gravitational_constant, least_share * gross_pull(view, group));
+    allowed_of_points_ = accepted_ == NodeRole::Extended ? 0.5 * allowed_ : allowed_;
 }
 
 /// Sum of the sizes of pulls / G, by nodes as coarse as the guard allows; without the nearest bodies.

@@ -32,6 +32,17 @@ constexpr std::array<std::string_view, 2> names(OpeningCriterion)
 /// Largest opening angle there is: a node is never opened by less than nine tenths of its distance.
 inline constexpr double widest_opening = 0.9;
 
+/// What a node that acts as one body is made of.
+enum class Multipoles : std::uint8_t {
+    Monopole,   ///< its mass
+    Quadrupole, ///< its second moments too
+};
+
+constexpr std::array<std::string_view, 2> names(Multipoles)
+{
+    return {"monopole", "quadrupole"};
+}
+
 /// Self-gravity between clusters.
 struct GravitySettings {
     double strength = 1;         ///< factor on Newton's constant
@@ -39,6 +50,7 @@ struct GravitySettings {
     bool closure = true;         ///< members attract each other as a homogeneous ball
     Precision precision = Precision::Mixed;
     OpeningCriterion opening = OpeningCriterion::Relative;
+    Multipoles multipoles = Multipoles::Monopole;
     double opening_angle = 0.5;     ///< radius over distance, of the geometric criterion
     double force_tolerance = 0.001; ///< of the relative criterion
     /// Acting bodies below which all pairs are summed: the walk is only faster where it gains more than a
@@ -64,6 +76,10 @@ void for_each_field(GravitySettings& gravity, Visitor&& visit)
                 "When a node of the tree acts as one body: by its error beside the last acceleration, or by "
                 "its angle."},
           gravity.opening);
+    visit(Field{"multipoles", "",
+                "What a node that acts as one body is: its mass, or where that misses too much its second "
+                "moments as well."},
+          gravity.multipoles);
     visit(Field{"opening_angle", "",
                 "A node acts as one body when its radius is below this share of its distance: the geometric "
                 "criterion, and the relative one's where no acceleration is known yet.",

@@ -132,7 +132,8 @@ void Simulation::State::make_room()
     else
         regrouping.reserve(tree, moving);
     if (plan.has(Phase::Moments)) {
-        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size());
+        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size(),
+                *settings.gravity);
         reserve(force_lists, store.clusters.slot_capacity());
     }
 }

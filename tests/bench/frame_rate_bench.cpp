@@ -1,6 +1,6 @@
-// The first experiment of O'Brien, Fisher and Lin 2001 (section 6.1, Figure 8): a fountain whose streams start
-// one after the other, without clusters, under the paper's rule and under the smooth controller, at a rate of
-// droplets of which this machine needs one and a half frame periods for one stream without clusters.
+// The first experiment of O'Brien, Fisher and Lin 2001 (section 6.1, Figure 8): a fountain whose streams
+// start one after the other, without clusters, under the paper's rule and under the smooth controller, at a
+// rate of droplets of which this machine needs one and a half frame periods for one stream without clusters.
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,8 @@ void await(pid_t child)
     int status = 0;
     waitpid(child, &status, 0);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw std::runtime_error("a process of the benchmark failed; run slod-server on the scene to see why");
+        throw std::runtime_error(
+            "a process of the benchmark failed; run slod-server on the scene to see why");
 }
 
 class Experiment {
@@ -110,8 +111,8 @@ public:
 
     std::vector<Frame> run(int frame_count, Settings settings, bool paced, bool loaded = false) const
     {
-        std::vector<std::string> words{SLOD_SERVER,          SLOD_SCENE, "--no-dds", "--frames",
-                                       std::to_string(frame_count), "--trace",  trace_};
+        std::vector<std::string> words{
+            SLOD_SERVER, SLOD_SCENE, "--no-dds", "--frames", std::to_string(frame_count), "--trace", trace_};
         if (!paced)
             words.emplace_back("--free-run");
         for (int stream = 0; stream < 3; ++stream)
@@ -141,7 +142,8 @@ Settings unclustered()
 }
 
 template <class Value>
-double quantile(const std::vector<Frame>& all, std::size_t first, std::size_t last, double q, const Value& value)
+double quantile(const std::vector<Frame>& all, std::size_t first, std::size_t last, double q,
+                const Value& value)
 {
     std::vector<double> values;
     for (std::size_t i = first; i < std::min(last, all.size()); ++i)
@@ -240,8 +242,9 @@ void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::f
             script << "'" << (folder / (name + ".dat")).string() << "' using 1:" << column
                    << " with lines title '" << name << "', ";
         script << (column == "2" ? "30 dashtype 2 lc 'gray' title 'target'\n"
-                   : column == "3" ? std::to_string(0.8 * period_ms) + " dashtype 2 lc 'gray' title 'target'\n"
-                                   : "30 dashtype 2 lc 'gray' title 'largest in the paper'\n");
+                   : column == "3"
+                       ? std::to_string(0.8 * period_ms) + " dashtype 2 lc 'gray' title 'target'\n"
+                       : "30 dashtype 2 lc 'gray' title 'largest in the paper'\n");
     }
     script.close();
     if (std::system(("gnuplot " + script_file.string()).c_str()) != 0)
@@ -282,12 +285,12 @@ try {
                            : judge(course, cap);
         std::printf("%s: %s\n", name.c_str(), result[name].dump(2).c_str());
     }
-    result["faster_at_the_end"] =
-        quantile(courses["without clusters"], frames - 100, frames, 0.5, work) /
-        quantile(courses["smooth"], frames - 100, frames, 0.5, work);
+    result["faster_at_the_end"] = quantile(courses["without clusters"], frames - 100, frames, 0.5, work) /
+                                  quantile(courses["smooth"], frames - 100, frames, 0.5, work);
     result["settled_after_load_frames"] = {settled_after(loaded, load_begin_s, load_begin_s + load_s),
                                            settled_after(loaded, load_begin_s + load_s, 1e9)};
-    std::printf("with clusters %.1f times faster at the end; settled %s frames after a load of %g s began and ended\n",
+    std::printf("with clusters %.1f times faster at the end; settled %s frames after a load of %g s began "
+                "and ended\n",
                 result["faster_at_the_end"].get<double>(), result["settled_after_load_frames"].dump().c_str(),
                 load_s);
     if (!picture.empty())

@@ -1,5 +1,5 @@
-// One evaluation of the forces in a Plummer sphere of single particles: by all pairs and by walks of the
-// tree, time, cost and error.
+// One evaluation of the forces between single particles: by all pairs and by walks of the tree, of monopoles
+// and of quadrupoles, time, cost and error.
 
 #include <algorithm>
 #include <chrono>
@@ -46,11 +46,24 @@ struct Row {
     double pairs_per_second() const { return interactions * double(bodies) / forces_s; }
 };
 
-Row measure(test::AttractingWorld& world, const char* method, std::uint32_t direct_below)
+ParticleSet make_cloud(const std::string& name, std::size_t bodies)
+{
+    if (name == "disc")
+        return test::cloud(bodies, 4, test::in_exponential_disc);
+    if (name == "box")
+        return test::cloud(bodies, 3, test::in_unit_box);
+    if (name == "clumps")
+        return test::two_clumps(bodies, 1);
+    return name == "spectrum" ? test::mass_spectrum(bodies, 2) : test::plummer_sphere(bodies, 1);
+}
+
+Row measure(test::AttractingWorld& world, const char* method, std::uint32_t direct_below,
+            Multipoles multipoles = Multipoles::Monopole)
 {
     const std::size_t bodies = world.view.body_count();
     const int rounds = direct_below > 0 && bodies > 50'000 ? 1 : round_count;
     world.settings.direct_below = direct_below;
+    world.settings.multipoles = multipoles;
     const double build_s = seconds(round_count, [&] { world.rebuild(); });
     world.evaluate(); // for the pulls of the relative criterion
     ForceCounts counts;
@@ -64,15 +77,17 @@ Row measure(test::AttractingWorld& world, const char* method, std::uint32_t dire
             test::force_errors(world)};
 }
 
-std::vector<Row> measure_all(const std::vector<std::size_t>& sizes, bool tide, double tolerance)
+std::vector<Row> measure_all(const std::string& cloud, const std::vector<std::size_t>& sizes, bool tide,
+                             double tolerance)
 {
     std::vector<Row> rows;
     for (const std::size_t bodies : sizes) {
-        test::AttractingWorld world(test::plummer_sphere(bodies, 1), softening);
+        test::AttractingWorld world(make_cloud(cloud, bodies), softening);
         world.clusters().columns.tide = tide;
         world.settings.force_tolerance = tolerance;
         rows.push_back(measure(world, "direct", UINT32_MAX));
-        rows.push_back(measure(world, "walk", 0));
+        rows.push_back(measure(world, "monopoles", 0));
+        rows.push_back(measure(world, "quadrupoles", 0, Multipoles::Quadrupole));
     }
     return rows;
 }
@@ -87,31 +102,33 @@ double equivalent_pairs(const Row& row, double rate)
 
 int main(int argc, char** argv)
 {
-    CLI::App app(
-        "Measures one evaluation of the forces in a Plummer sphere, with errors on 1000 of its bodies.");
+    CLI::App app("Measures one evaluation of the forces in a cloud, with errors on 1000 of its bodies.");
     bool as_json = false, tide = false;
     int threads = 1;
     double tolerance = GravitySettings{}.force_tolerance;
+    std::string cloud = "sphere";
     std::vector<std::size_t> sizes{10'000, 100'000};
     app.add_flag("--json", as_json, "Print all figures as one JSON object on the last line, too.");
     app.add_flag("--tide", tide, "Sum tidal tensors, too.");
     app.add_option("--threads", threads, "Threads to use.")->check(CLI::Range(1, 256));
+    app.add_option("--cloud", cloud, "A Plummer sphere, or another cloud of the tests.")
+        ->check(CLI::IsMember({"sphere", "disc", "clumps", "spectrum", "box"}));
     app.add_option("--bodies", sizes, "Numbers of bodies.")->check(CLI::Range(1, 10'000'000));
     app.add_option("--tolerance", tolerance, "Of the relative opening criterion.");
     CLI11_PARSE(app, argc, argv);
 
     std::vector<Row> rows;
-    ThreadTeam(threads).run([&] { rows = measure_all(sizes, tide, tolerance); });
+    ThreadTeam(threads).run([&] { rows = measure_all(cloud, sizes, tide, tolerance); });
     double rate = 0;
     for (const Row& row : rows)
         if (row.method == std::string("direct"))
             rate = std::max(rate, row.pairs_per_second());
 
     nlohmann::ordered_json runs;
-    std::printf("%8s %-7s %9s %9s %9s %9s %10s %10s %12s\n", "bodies", "method", "build ms", "forces ms",
+    std::printf("%8s %-11s %9s %9s %9s %9s %10s %10s %12s\n", "bodies", "method", "build ms", "forces ms",
                 "per body", "tested", "median", "p99", "equivalent");
     for (const Row& row : rows) {
-        std::printf("%8zu %-7s %9.2f %9.2f %9.0f %9.0f %10.2e %10.2e %12.0f\n", row.bodies, row.method,
+        std::printf("%8zu %-11s %9.2f %9.2f %9.0f %9.0f %10.2e %10.2e %12.0f\n", row.bodies, row.method,
                     row.build_s * 1e3, row.forces_s * 1e3, row.interactions, row.nodes_tested,
                     row.errors.median, row.errors.p99, equivalent_pairs(row, rate));
         runs.push_back({{"bodies", row.bodies},
@@ -126,6 +143,7 @@ int main(int argc, char** argv)
     }
     if (as_json) {
         const nlohmann::ordered_json report = {{"benchmark", "gravity"},
+                                               {"cloud", cloud},
                                                {"threads", threads},
                                                {"tide", tide},
                                                {"force_tolerance", tolerance},

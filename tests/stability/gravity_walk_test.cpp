@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstring>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -53,15 +54,27 @@ TEST(GravityWalk, CostPerBodyGrowsAsTheLogarithmOfTheirNumber)
     EXPECT_GT(line.slope, 0);
 }
 
-class GravityMomentum : public testing::TestWithParam<bool> {};
+struct Summation {
+    const char* name;
+    bool walks;
+    Multipoles multipoles = Multipoles::Monopole;
+
+    friend std::ostream& operator<<(std::ostream& out, const Summation& summation)
+    {
+        return out << summation.name;
+    }
+};
+
+class GravityMomentum : public testing::TestWithParam<Summation> {};
 
 // A turning cloud by itself, every star by itself. The direct sum in double gains what 300 steps round.
 TEST_P(GravityMomentum, G33_IsKept)
 {
-    const bool walks = GetParam();
+    const bool walks = GetParam().walks;
     SmallScene scene{"cloud", quiet_settings(), {}};
     scene.settings.background.max_cluster_size = 1;
     scene.settings.gravity.emplace();
+    scene.settings.gravity->multipoles = GetParam().multipoles;
     scene.settings.gravity->direct_below = walks ? 0 : 1'000'000;
     scene.settings.gravity->precision = walks ? Precision::Mixed : Precision::Double;
     add_cloud(scene.initial, {.count = walks ? 3'000U : 500U}, 1);
@@ -81,26 +94,35 @@ TEST_P(GravityMomentum, G33_IsKept)
               bound * before.angular_momentum.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(BothWays, GravityMomentum, testing::Bool(),
-                         [](const auto& tested) { return tested.param ? "Walked" : "Direct"; });
+INSTANTIATE_TEST_SUITE_P(AllWays, GravityMomentum,
+                         testing::Values(Summation{"Direct", false}, Summation{"WalkedByMonopoles", true},
+                                         Summation{"WalkedByQuadrupoles", true, Multipoles::Quadrupole}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(GravityWalk, GivesTheSameBitsOnEveryInstructionSetAndAnyNumberOfThreads)
 {
-    AttractingWorld world(plummer_sphere(5'000, 2));
-    world.settings.direct_below = 0;
-    for (const Precision precision : {Precision::Mixed, Precision::Double}) {
-        world.settings.precision = precision;
-        world.evaluate_again();
-        AlignedVector<double> pulls = world.clusters().pull;
-        world.evaluate();
-        const std::vector<Vector3d> expected = world.by_id();
-        for (const simd::KernelTable* kernels : simd::runnable_kernels()) {
-            for (const int threads : {1, 3, 8}) {
-                world.clusters().pull = pulls;
-                ThreadTeam(threads).run([&] { world.evaluate(*kernels); });
-                const std::vector<Vector3d> found = world.by_id();
-                EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Vector3d)), 0)
-                    << kernels->name << " on " << threads;
+    AttractingWorld world = walked(plummer_sphere(5'000, 2));
+    for (const Multipoles multipoles : {Multipoles::Monopole, Multipoles::Quadrupole}) {
+        for (const Precision precision : {Precision::Mixed, Precision::Double}) {
+            world.settings.multipoles = multipoles;
+            world.settings.precision = precision;
+            world.rebuild();
+            world.evaluate_again();
+            const AlignedVector<double> pulls = world.clusters().pull;
+            world.evaluate();
+            const std::vector<Vector3d> expected = world.by_id();
+            for (const simd::KernelTable* kernels : simd::runnable_kernels()) {
+                for (const int threads : {1, 3, 8}) {
+                    world.clusters().pull = pulls;
+                    ThreadTeam(threads).run([&] {
+                        world.rebuild();
+                        world.evaluate(*kernels);
+                    });
+                    const std::vector<Vector3d> found = world.by_id();
+                    EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Vector3d)), 0)
+                        << names(multipoles)[std::size_t(multipoles)] << ", " << kernels->name << " on "
+                        << threads;
+                }
             }
         }
     }

@@ -80,6 +80,13 @@ std::vector<Vector3d> AttractingWorld::by_id() const
     return sorted;
 }
 
+AttractingWorld walked(const ParticleSet& particles, double softening)
+{
+    AttractingWorld world(particles, softening);
+    world.settings.direct_below = 0;
+    return world;
+}
+
 ForceErrors force_errors(const AttractingWorld& world, std::size_t count)
 {
     const std::size_t total = world.bodies.size();

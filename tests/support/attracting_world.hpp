@@ -52,6 +52,9 @@ private:
     World world_;
 };
 
+/// Single particles whose forces come from walks of the tree, however few they are.
+AttractingWorld walked(const ParticleSet& particles, double softening = 0.01);
+
 /// Quantiles of |a - exact| / |exact|.
 struct ForceErrors {
     double median = 0, p99 = 0, largest = 0, rms = 0;

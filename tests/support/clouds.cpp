@@ -1,6 +1,7 @@
 #include "support/clouds.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "support/random_draws.hpp"
 
@@ -74,6 +75,37 @@ ParticleSet cloud(std::size_t count, std::uint64_t seed, const std::function<Vec
         particles[i].id = i + 1;
         particles[i].mass = 1 / float(count);
     }
+    return particles;
+}
+
+Vector3d in_unit_box(Random& random)
+{
+    const double x = random.uniform(), y = random.uniform();
+    return {x, y, random.uniform()};
+}
+
+Vector3d in_exponential_disc(Random& random)
+{
+    const double radius = -std::log(random.uniform() * random.uniform());
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    return {radius * std::cos(angle), radius * std::sin(angle), 0.05 * random_normal(random)};
+}
+
+ParticleSet two_clumps(std::size_t count, std::uint64_t seed)
+{
+    std::uint64_t index = 0;
+    return cloud(count, seed, [&](Random& random) {
+        const double x = random_normal(random), y = random_normal(random);
+        const Vector3d offset = 0.02 * Vector3d(x, y, random_normal(random));
+        return Vector3d(offset + double(index++ % 2) * Vector3d(10.1, 9.9, 10));
+    });
+}
+
+ParticleSet mass_spectrum(std::size_t count, std::uint64_t seed)
+{
+    ParticleSet particles = plummer_sphere(count, seed);
+    for (Particle& particle : particles)
+        particle.mass = float(std::pow(10.0, -6 * Random(seed, 1, particle.id).uniform()));
     return particles;
 }
 

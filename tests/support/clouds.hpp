@@ -30,6 +30,17 @@ ParticleSet plummer_sphere(std::size_t count, std::uint64_t seed);
 /// own. Ids from 1 on.
 ParticleSet cloud(std::size_t count, std::uint64_t seed, const std::function<Vector3d(Random&)>& place);
 
+/// Places for cloud(): uniform in the unit box; and of a disc with surface density exp(-R), thickness 0.05.
+Vector3d in_unit_box(Random& random);
+Vector3d in_exponential_disc(Random& random);
+
+/// `count` particles at rest in two Gaussian clumps of dispersion 0.02, one on the origin and one at (10.1,
+/// 9.9, 10): their centre of mass is far from both.
+ParticleSet two_clumps(std::size_t count, std::uint64_t seed);
+
+/// A Plummer sphere of `count` particles whose masses are between 1e-6 and 1, uniform in the logarithm.
+ParticleSet mass_spectrum(std::size_t count, std::uint64_t seed);
+
 /// Masses uniform in [lowest, highest].
 void give_masses(ParticleSet& particles, double lowest, double highest, std::uint64_t seed);
 

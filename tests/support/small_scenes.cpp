@@ -140,6 +140,10 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(clouds("unclustered", Motion::Flow, 1, 500));
     scenes.push_back(clouds("walk", Motion::Flow, 8, 2000));
     scenes.back().settings.gravity->direct_below = 0;
+    scenes.back().settings.gravity->multipoles = Multipoles::Monopole;
+    scenes.push_back(clouds("walk_with_quadrupoles", Motion::Flow, 8, 2000));
+    scenes.back().settings.gravity->direct_below = 0;
+    scenes.back().settings.gravity->multipoles = Multipoles::Quadrupole;
     scenes.push_back(fountain("fountain", Motion::Flow));
     scenes.push_back(fountain("full_fountain", Motion::Flow));
     scenes.back().settings.limits.max_particles = 300;

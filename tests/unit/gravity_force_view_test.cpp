@@ -107,6 +107,35 @@ TEST(ForceView, ANodeHasTheMassAndCentreOfItsBodiesAndBoundsThem)
     }
 }
 
+// Sums of up to 150 terms, some ten levels of the tree, over places below 10 that are rounded to 1e-15.
+TEST(ForceView, ANodesSecondMomentsAreThoseOfItsBodies)
+{
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        test::World world = random_world(seed);
+        const ForceView view = view_of(world, {.multipoles = Multipoles::Quadrupole});
+        ASSERT_EQ(view.second_moments.size(), view.nodes.size());
+        for (std::size_t index = 0; index < view.nodes.size(); ++index) {
+            const ForceView::Node& node = view.nodes[index];
+            Matrix3d sum = Matrix3d::Zero();
+            for (std::uint32_t body = node.first; body < node.first + node.count; ++body) {
+                const Vector3d offset = view.position(body) - node.centre;
+                sum += view.mass[body] * offset * offset.transpose();
+            }
+            EXPECT_LE((view.second_moments[index].matrix() - sum).norm(), 1e-12 * (1 + sum.norm()));
+        }
+    }
+}
+
+TEST(ForceView, HasNoSecondMomentsUnlessTheyAreAskedFor)
+{
+    test::World world = random_world(1);
+    ForceView view = view_of(world, {.multipoles = Multipoles::Quadrupole});
+    EXPECT_FALSE(view.second_moments.empty());
+    build(view, world.tree, world.store.clusters, {.multipoles = Multipoles::Monopole});
+    EXPECT_TRUE(view.second_moments.empty());
+    EXPECT_EQ(view_of(world, {.multipoles = Multipoles::Monopole}).second_moments.capacity(), 0U);
+}
+
 TEST(ForceView, NoNodeIsEmptyOrTheSameAsItsOnlyChild)
 {
     test::World world = random_world(2);
@@ -149,6 +178,9 @@ TEST(ForceViewProblems, AreFoundWhenANodeIsWrong)
     EXPECT_FALSE(problems(broken, world.store.clusters).empty());
     broken = sound;
     broken.slot.pop_back();
+    EXPECT_FALSE(problems(broken, world.store.clusters).empty());
+    broken = sound;
+    broken.second_moments.resize(1);
     EXPECT_FALSE(problems(broken, world.store.clusters).empty());
 }
 

@@ -15,6 +15,12 @@ protected:
     /// Whether a node of this radius and mass at x = distance may act as one body.
     bool acts(double radius, double distance, double mass = 1, double q = 0, double blur = 0)
     {
+        return role(radius, distance, mass, q, blur) != NodeRole::Opened;
+    }
+
+    /// As what it may.
+    NodeRole role(double radius, double distance, double mass = 1, double q = 0, double blur = 0)
+    {
         ForceView::Node node;
         node.radius = float(radius);
         node.centre = {distance, 0, 0};
@@ -22,12 +28,13 @@ protected:
         node.q = q;
         node.blur = float(blur);
         const Opening opening(world_.view, {0, 1, 0, 0}, settings_, G, pulls_);
-        return opening.acts_as_one(node);
+        return opening.role_of(node);
     }
 
     static constexpr double G = 2;
     AttractingWorld world_;
-    GravitySettings settings_{.opening_angle = 0.5, .force_tolerance = 0.01};
+    GravitySettings settings_{
+        .multipoles = Multipoles::Monopole, .opening_angle = 0.5, .force_tolerance = 0.01};
     AlignedVector<double> pulls_; ///< of the one body
 };
 
@@ -87,6 +94,40 @@ TEST_F(OpeningTest, ANodeWithoutExtentActsAsOneAtAnyDistance)
         EXPECT_TRUE(acts(0, 1e-300));
         EXPECT_TRUE(acts(0, 0));
     }
+}
+
+TEST_F(OpeningTest, NodesArePointsUnlessSecondMomentsAreAskedFor)
+{
+    pulls_[0] = 200;
+    EXPECT_EQ(role(0.5, 1, 4), NodeRole::Point);
+    settings_.opening = OpeningCriterion::Geometric;
+    EXPECT_EQ(role(1, 2), NodeRole::Point);
+    settings_.multipoles = Multipoles::Quadrupole;
+    EXPECT_EQ(role(1, 2), NodeRole::Extended);
+    EXPECT_EQ(role(1, 1.999), NodeRole::Opened);
+}
+
+TEST_F(OpeningTest, NodesTakeSecondMomentsWhereTheirMassAloneWouldMissHalfOfWhatIsAllowed)
+{
+    settings_.multipoles = Multipoles::Quadrupole;
+    pulls_[0] = 200; // G m r^2 / d^4 <= 1/2 0.01 * 200 at d = 1 for r = 0.5 and m = 2
+    EXPECT_EQ(role(0.5, 1, 2), NodeRole::Point);
+    EXPECT_EQ(role(0.5, 1, 2.001), NodeRole::Extended);
+    EXPECT_EQ(role(0.5, 1, 64), NodeRole::Extended); // G m r^4 / d^6 <= 4 * 0.01 * 200
+    EXPECT_EQ(role(0.5, 1, 64.001), NodeRole::Opened);
+    EXPECT_EQ(role(0.5, 1, 512, 1), NodeRole::Extended); // softening makes the pull and its error smaller
+    EXPECT_EQ(role(0.5, 1, 512.01, 1), NodeRole::Opened);
+    pulls_[0] = 1e30;
+    EXPECT_EQ(role(0.901, 1), NodeRole::Opened);
+}
+
+// Neither the fourth power of the blur nor that of the radius is above its bound here.
+TEST_F(OpeningTest, SofterBodiesOnOneSideOpenANodeWithSecondMoments)
+{
+    settings_.multipoles = Multipoles::Quadrupole;
+    pulls_[0] = 200; // G m r b^2 <= 0.01 * 200 at d = 1 for r = 0.5, b = 0.5 and m = 8
+    EXPECT_EQ(role(0.5, 1, 8, 0, 0.5), NodeRole::Extended);
+    EXPECT_EQ(role(0.5, 1, 8.001, 0, 0.5), NodeRole::Opened);
 }
 
 } // namespace

@@ -1,0 +1,66 @@
+#include "gravity/second_moments.hpp"
+
+#include "core/parallel.hpp"
+
+namespace slod {
+namespace {
+
+/// Adds those of a point mass.
+void add_point(Symmetric3& moments, double mass, const Vector3d& offset)
+{
+    const Vector3d weighted = mass * offset;
+    moments.xx += weighted.x() * offset.x();
+    moments.xy += weighted.x() * offset.y();
+    moments.xz += weighted.x() * offset.z();
+    moments.yy += weighted.y() * offset.y();
+    moments.yz += weighted.y() * offset.z();
+    moments.zz += weighted.z() * offset.z();
+}
+
+void add(Symmetric3& moments, const Symmetric3& others)
+{
+    moments.xx += others.xx;
+    moments.xy += others.xy;
+    moments.xz += others.xz;
+    moments.yy += others.yy;
+    moments.yz += others.yz;
+    moments.zz += others.zz;
+}
+
+Symmetric3 of_leaf(const ForceView& view, const ForceView::Node& leaf)
+{
+    Symmetric3 moments;
+    for (std::uint32_t body = leaf.first; body < leaf.first + leaf.count; ++body)
+        add_point(moments, view.mass[body], view.position(body) - leaf.centre);
+    return moments;
+}
+
+/// From the children's, each about its own centre (Steiner).
+Symmetric3 of_inner(const ForceView& view, std::size_t index)
+{
+    const ForceView::Node& node = view.nodes[index];
+    Symmetric3 moments;
+    for (std::size_t child = index + 1; child < node.next; child = view.nodes[child].next) {
+        add(moments, view.second_moments[child]);
+        add_point(moments, view.nodes[child].mass, view.nodes[child].centre - node.centre);
+    }
+    return moments;
+}
+
+} // namespace
+
+void sum_up_second_moments(ForceView& view)
+{
+    view.second_moments.resize(view.nodes.size());
+    const auto leaf = [&](std::size_t node) { return view.nodes[node].next == node + 1; };
+    for_each_block(view.nodes.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t node = first; node < last; ++node)
+            if (leaf(node))
+                view.second_moments[node] = of_leaf(view, view.nodes[node]);
+    });
+    for (std::size_t node = view.nodes.size(); node-- > 0;)
+        if (!leaf(node))
+            view.second_moments[node] = of_inner(view, node);
+}
+
+} // namespace slod
