@@ -50,7 +50,7 @@ struct GravitySettings {
     bool closure = true;         ///< members attract each other as a homogeneous ball
     Precision precision = Precision::Mixed;
     OpeningCriterion opening = OpeningCriterion::Relative;
-    Multipoles multipoles = Multipoles::Monopole;
+    Multipoles multipoles = Multipoles::Quadrupole;
     double opening_angle = 0.5;     ///< radius over distance, of the geometric criterion
     double force_tolerance = 0.001; ///< of the relative criterion
     /// Acting bodies below which all pairs are summed: the walk is only faster where it gains more than a
