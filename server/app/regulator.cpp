@@ -52,7 +52,8 @@ void Regulator::add(const Snapshot& snapshot, double work_ms)
     decided_ = controller_->next({.work_ms = work_ms,
                                   .target_ms = report().target_ms,
                                   .particles = snapshot.counts.particles,
-                                  .clusters = snapshot.counts.clusters});
+                                  .clusters = snapshot.counts.clusters,
+                                  .growth = double(snapshot.counts.born) - double(snapshot.counts.died)});
 }
 
 void Regulator::apply(SceneEditor& editor, std::uint64_t frame)

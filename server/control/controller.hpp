@@ -16,6 +16,7 @@ struct FrameWork {
     double work_ms;   ///< step and encoding; one that is not above 0 and finite is not taken for a time
     double target_ms; ///< that it is to take; above 0
     std::uint64_t particles, clusters;
+    double growth = 0; ///< particles born less those that died
 };
 
 /// What there is to turn in a scene.

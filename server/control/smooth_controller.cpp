@@ -9,20 +9,23 @@ namespace {
 /// Share of an error that is taken up at once. Where the work grows faster than the clusters, as in all
 /// pairs, the whole of it would swing.
 constexpr double gain = 0.9;
-constexpr double most_change = 0.05; ///< of the output in a frame
-constexpr double rest = 0.02;        ///< error within which the output rests
-constexpr double leave = 0.04;       ///< and above which it no longer does
-constexpr double reached = 0.05;     ///< error up to which the target counts as met
+constexpr double most_rise = 0.06, most_fall = 0.025; ///< of the output in a frame
+constexpr double rest = 0.02;                         ///< error within which the output rests
+constexpr double leave = 0.04;                        ///< and above which it no longer does
+constexpr double reached = 0.05;                      ///< error up to which the target counts as met
 /// Frames in which clusters follow, roughly: splits are swept over 8 frames, merges over 16.
 constexpr double lag_frames = 6;
-constexpr double fill_frames = 6;
-constexpr double steady = 0.03; ///< difference between output and lagged output at which the fill is learned
-constexpr std::size_t few = 5;  ///< frames of the median where the error is large
-constexpr double large = 0.1;   ///< such an error
+/// Frames whose births are taken into account: those in which small clusters have merged.
+constexpr double foresight_frames = 10;
+/// Largest differences, of output and lagged output and of crowding and the mean of its last frames, at which
+/// the fill is learned: either the clusters have followed, or they do not.
+constexpr double steady = 0.03, stuck = 0.005;
+constexpr std::size_t few = 5; ///< frames of the median where the error is large
+constexpr double large = 0.1;  ///< such an error
 constexpr double lever_step = 1.4142135623730951;
 constexpr int patience = 30; ///< frames that ask for a turn of the further levers before there is one
-constexpr double half_size =
-    0.7; ///< below the largest output: levers are turned back, which costs 0.35 at most
+/// Below the largest output levers are turned back, which costs 0.35 at most.
+constexpr double half_size = 0.7;
 
 } // namespace
 
@@ -64,8 +67,10 @@ Detail SmoothController::next(const FrameWork& work)
         return detail_;
     const double clusters = std::log(double(work.clusters));
     const double crowding = clusters - std::log(double(work.particles));
-    if (frames_ == 0)
+    if (frames_ == 0) {
         fill_ = crowding + output_;
+        crowding_before_ = crowding;
+    }
     costs_[frames_++ % window] = std::log(work.work_ms) - clusters;
     if (frames_ < few)
         return detail_;
@@ -74,7 +79,10 @@ Detail SmoothController::next(const FrameWork& work)
     };
     const double quick = error_over(few);
     const double error = std::abs(quick) > large ? quick : error_over(std::min(frames_, window));
-    turn_size(error, crowding);
+    const double growth =
+        std::log(std::max(1 + foresight_frames * work.growth / double(work.particles), 0.1));
+    turn_size(error, crowding, growth);
+    learn_fill(crowding);
     turn_levers(error);
     judge(error);
     detail_.cluster_size = std::exp(output_);
@@ -91,17 +99,23 @@ double SmoothController::median_cost(std::size_t frames) const
     return *middle;
 }
 
-void SmoothController::turn_size(double error, double crowding)
+void SmoothController::turn_size(double error, double crowding, double growth)
 {
-    const bool resting = std::abs(error) < (state_ == ControlState::Holding ? leave : rest);
+    const bool resting = std::abs(error + growth) < (state_ == ControlState::Holding ? leave : rest);
     if (!resting) {
-        const double wanted = fill_ - crowding + gain * error;
-        output_ += std::clamp(wanted - output_, -most_change, most_change);
+        const double wanted = fill_ - crowding + gain * error + growth;
+        output_ += std::clamp(wanted - output_, -most_fall, most_rise);
         output_ = std::clamp(output_, least_output(), most_output());
     }
     lagged_ += (output_ - lagged_) / lag_frames;
-    if (std::abs(output_ - lagged_) < steady)
-        fill_ += (crowding + lagged_ - fill_) / fill_frames;
+}
+
+void SmoothController::learn_fill(double crowding)
+{
+    const bool followed = std::abs(output_ - lagged_) < steady;
+    if (followed || std::abs(crowding - crowding_before_) < stuck)
+        fill_ += (crowding + lagged_ - fill_) / lag_frames;
+    crowding_before_ += (crowding - crowding_before_) / lag_frames;
 }
 
 void SmoothController::turn_levers(double error)

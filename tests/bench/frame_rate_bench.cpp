@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -68,10 +69,12 @@ pid_t start(const std::vector<std::string>& words)
     for (const std::string& word : words)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
+    std::fflush(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-        if (std::freopen("/dev/null", "w", stdout) == nullptr)
-            _exit(126);
+        const int nowhere = open("/dev/null", O_WRONLY);
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
         execv(arguments[0], arguments.data());
         _exit(127);
     }
@@ -81,6 +84,7 @@ pid_t start(const std::vector<std::string>& words)
 /// Keeps both of two processors busy for a while.
 pid_t start_load(double after_s, double for_s)
 {
+    std::fflush(nullptr);
     const pid_t child = fork();
     if (child != 0)
         return child;
