@@ -102,7 +102,7 @@ const std::map<std::string, std::uint64_t> pinned{
     {"unclustered", 0xa2768cb0acf29be9},   {"walk", 0xb74f8bc6ed40264f},
     {"fountain", 0x8f2934cb2ab42c1d},      {"rigid_fountain", 0xa6305411d4aed61b},
     {"mixture", 0x71416fdd35cc424d},       {"regions", 0x1afb7486ea811635},
-    {"full_fountain", 0x8ea021432f367d97}, {"walk_with_quadrupoles", 0xa3c60fcdc760707d},
+    {"full_fountain", 0x8ea021432f367d97}, {"walk_with_quadrupoles", 0x86579133f45b3318},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)
