@@ -1,3 +1,7 @@
+#include "cost/answer.hpp"
+#include "cost/report_files.hpp"
+#include "cost/sweep.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -15,9 +19,6 @@
 #include <CLI/CLI.hpp>
 
 #include "core/parallel.hpp"
-#include "cost/answer.hpp"
-#include "cost/report_files.hpp"
-#include "cost/sweep.hpp"
 #include "idl/version.hpp"
 
 namespace {
@@ -109,14 +110,14 @@ int measure(const CommandLine& line)
 
     std::array<char, 65> host{};
     gethostname(host.data(), host.size() - 1);
-    const cost::Circumstances circumstances{
-        .scene = scene.title,
-        .version = std::string(version()),
-        .machine = std::string(host.data()) + ", " + std::to_string(std::thread::hardware_concurrency()) +
-                   " processors",
-        .particles = initial(scene.simulation.seed).size(),
-        .frames = plan.frames,
-        .threads = threads};
+    const cost::Circumstances circumstances{.scene = scene.title,
+                                            .version = std::string(version()),
+                                            .machine = std::string(host.data()) + ", " +
+                                                       std::to_string(std::thread::hardware_concurrency()) +
+                                                       " processors",
+                                            .particles = initial(scene.simulation.seed).size(),
+                                            .frames = plan.frames,
+                                            .threads = threads};
     write(line.folder / "cost.csv", cost::csv_text(sweep));
     write(line.folder / "cost.json", cost::json_text(sweep, circumstances));
     write(line.folder / "cost.gp", cost::plot_script(sweep, circumstances, line.folder / "cost"));

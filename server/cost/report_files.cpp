@@ -1,13 +1,13 @@
 #include "cost/report_files.hpp"
 
+#include "cost/answer.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
-
-#include "cost/answer.hpp"
 
 namespace slod::cost {
 namespace {
@@ -18,7 +18,9 @@ constexpr double smallest_drawn = 1e-3; ///< the unclustered run has no error, w
 
 Json json_of(const Row& row)
 {
-    return {{"motion", row.setting.unclustered() ? "unclustered" : names(row.setting.motion)[std::size_t(row.setting.motion)]},
+    return {{"motion", row.setting.unclustered()
+                           ? "unclustered"
+                           : names(row.setting.motion)[std::size_t(row.setting.motion)]},
             {"max_cluster_size", row.setting.max_cluster_size},
             {"ms_median", row.ms_median},
             {"ms_p10", row.ms_p10},
@@ -84,15 +86,16 @@ std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
 
 std::string table_text(const Sweep& sweep)
 {
-    std::string text = "setting          ms   p10-p90       clusters  error  position velocity density  r50    displaced\n";
+    std::string text =
+        "setting          ms   p10-p90       clusters  error  position velocity density  r50    displaced\n";
     for (const Row& row : sweep.rows) {
         std::array<char, 200> line{};
         std::snprintf(line.data(), line.size(),
                       "%-12s %7.2f %6.2f-%-7.2f %8llu  %6.2f %7.2f %8.2f %8.2f %7.3f %8.4f\n",
                       row.setting.name().c_str(), row.ms_median, row.ms_p10, row.ms_p90,
-                      static_cast<unsigned long long>(row.clusters), row.errors.largest(), row.errors.position,
-                      row.errors.velocity, std::max(row.errors.coarse, row.errors.fine), row.r50,
-                      row.median_displacement);
+                      static_cast<unsigned long long>(row.clusters), row.errors.largest(),
+                      row.errors.position, row.errors.velocity, std::max(row.errors.coarse, row.errors.fine),
+                      row.r50, row.median_displacement);
         text += line.data();
     }
     return text;
@@ -104,7 +107,9 @@ std::string plot_script(const Sweep& sweep, const Circumstances& circumstances,
     std::ostringstream script;
     std::vector<std::string> drawn;
     for (const Motion motion : {Motion::Flow, Motion::Stream, Motion::Rigid}) {
-        const auto own = [&](const Row& row) { return !row.setting.unclustered() && row.setting.motion == motion; };
+        const auto own = [&](const Row& row) {
+            return !row.setting.unclustered() && row.setting.motion == motion;
+        };
         if (std::none_of(sweep.rows.begin(), sweep.rows.end(), own))
             continue;
         const std::string name(names(motion)[std::size_t(motion)]);

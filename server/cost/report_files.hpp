@@ -1,9 +1,9 @@
 #pragma once
 
+#include "cost/sweep.hpp"
+
 #include <filesystem>
 #include <string>
-
-#include "cost/sweep.hpp"
 
 namespace slod::cost {
 

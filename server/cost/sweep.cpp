@@ -1,17 +1,19 @@
 #include "cost/sweep.hpp"
 
+#include "cost/metrics.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
-#include "cost/metrics.hpp"
 
 namespace slod::cost {
 namespace {
 
 /// A cloud with what is asked of it again and again.
 struct Cloud {
-    explicit Cloud(ParticleSet set) : particles(std::move(set)), x(positions(particles)), v(velocities(particles))
+    explicit Cloud(ParticleSet set)
+        : particles(std::move(set)), x(positions(particles)), v(velocities(particles))
     {}
 
     ParticleSet particles;
@@ -49,8 +51,8 @@ double ratio(double a, double b)
 
 class Sweeper {
 public:
-    Sweeper(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan, const Clock& clock,
-            const Progress& progress)
+    Sweeper(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
+            const Clock& clock, const Progress& progress)
         : scene_(scene), initial_(initial), plan_(plan), clock_(clock), progress_(progress),
           runs_(double(1 + plan.seeds) + double(plan.settings.size()))
     {}

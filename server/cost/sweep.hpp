@@ -1,11 +1,11 @@
 #pragma once
 
+#include "cost/trial.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
-
-#include "cost/trial.hpp"
 
 namespace slod::cost {
 
@@ -20,8 +20,8 @@ struct SweepPlan {
     static SweepPlan quick();
 };
 
-/// Distances from the unclustered run, each in units of the noise floor: the mean distance of unclustered runs
-/// of other seeds from it. 1: as another seed; below 2 good, above 3 visible.
+/// Distances from the unclustered run, each in units of the noise floor: the mean distance of unclustered
+/// runs of other seeds from it. 1: as another seed; below 2 good, above 3 visible.
 struct Errors {
     double position = 0; ///< sliced Wasserstein distance
     double velocity = 0; ///< likewise
@@ -37,7 +37,7 @@ struct Row {
     double ms_median = 0, ms_p10 = 0, ms_p90 = 0;
     std::uint64_t clusters = 0;
     Errors errors;
-    double median_displacement = 0; ///< of each particle, in rms radii; chaotic where there is gravity
+    double median_displacement = 0;   ///< of each particle, in rms radii; chaotic where there is gravity
     double r10 = 0, r50 = 0, r90 = 0; ///< Lagrangian radii over the unclustered run's
     double momentum_drift = 0, energy_change = 0;
 };
@@ -46,7 +46,7 @@ struct Row {
 struct Floor {
     double position = 0, velocity = 0; ///< scene units
     double coarse = 0, fine = 0;
-    double rms_radius = 0; ///< scene length
+    double rms_radius = 0;  ///< scene length
     bool resampled = false; ///< the scene has no random numbers: bootstrap samples stand in for other seeds
 };
 

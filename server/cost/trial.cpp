@@ -43,8 +43,8 @@ SimulationSettings with_setting(const SimulationSettings& scene, const Setting& 
     return settings;
 }
 
-Trial run_trial(const SimulationSettings& settings, const ParticleSet& initial, int frames, const Clock& clock,
-                const std::function<void(int)>& progress)
+Trial run_trial(const SimulationSettings& settings, const ParticleSet& initial, int frames,
+                const Clock& clock, const std::function<void(int)>& progress)
 {
     Simulation simulation(settings, initial, {.isa = "auto", .tick = {}});
     const ConservedQuantities start = simulation.snapshot({.conserved = true}).conserved;

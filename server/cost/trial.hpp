@@ -33,9 +33,9 @@ struct Trial {
 /// Milliseconds of wall time since any fixed moment.
 using Clock = std::function<double()>;
 
-/// Runs `frames` frames from `initial`. `progress` is told of each. The times of the first tenth are left out:
-/// memory grows there.
-Trial run_trial(const SimulationSettings& settings, const ParticleSet& initial, int frames, const Clock& clock,
-                const std::function<void(int)>& progress);
+/// Runs `frames` frames from `initial`. `progress` is told of each. The times of the first tenth are left
+/// out: memory grows there.
+Trial run_trial(const SimulationSettings& settings, const ParticleSet& initial, int frames,
+                const Clock& clock, const std::function<void(int)>& progress);
 
 } // namespace slod::cost

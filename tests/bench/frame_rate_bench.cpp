@@ -137,12 +137,19 @@ private:
     std::filesystem::path trace_;
 };
 
+/// Clusters of these sizes, whatever the frames take.
+Settings fixed(double background, double nozzles)
+{
+    Settings settings{"control.mode=\"off\"", "background.max_cluster_size=" + std::to_string(background)};
+    for (int region = 0; region < 3; ++region)
+        settings.push_back("region." + std::to_string(region) +
+                           ".max_cluster_size=" + std::to_string(nozzles));
+    return settings;
+}
+
 Settings unclustered()
 {
-    Settings settings{"background.max_cluster_size=1"};
-    for (int region = 0; region < 3; ++region)
-        settings.push_back("region." + std::to_string(region) + ".max_cluster_size=1");
-    return settings;
+    return fixed(1, 1);
 }
 
 template <class Value>
@@ -161,6 +168,14 @@ double work(const Frame& frame)
     return frame.work_ms();
 }
 
+/// Share of the frames from `first` on whose work is this near to `ms`.
+double share_near(const std::vector<Frame>& course, std::size_t first, double ms, double relative)
+{
+    const auto near = [&](const Frame& frame) { return std::abs(frame.work_ms() / ms - 1) <= relative; };
+    const auto begin = course.begin() + std::ptrdiff_t(std::min(first, course.size()));
+    return double(std::count_if(begin, course.end(), near)) / double(course.end() - begin);
+}
+
 /// Raises the streams until one of them takes one and a half periods of work without clusters.
 void calibrate(Experiment& experiment)
 {
@@ -177,7 +192,7 @@ void calibrate(Experiment& experiment)
 /// What is asked of a controlled run.
 Json judge(const std::vector<Frame>& course, double cap)
 {
-    int near = 0, counted = 0, at_cap = 0;
+    int near = 0, within_10 = 0, counted = 0, at_cap = 0;
     double jump = 0, largest = 0, events = 0;
     const double median = quantile(course, settling, course.size(), 0.5, work);
     for (std::size_t i = 0; i < course.size(); ++i) {
@@ -190,7 +205,9 @@ Json judge(const std::vector<Frame>& course, double cap)
         if (!settled)
             continue;
         ++counted;
-        near += std::abs(course[i].work_ms() / course[i].target_ms - 1) <= 0.05;
+        const double error = std::abs(course[i].work_ms() / course[i].target_ms - 1);
+        near += error <= 0.05;
+        within_10 += error <= 0.1;
         events += course[i].events / course[i].clusters;
     }
     const auto rate = [&](std::size_t first) {
@@ -198,6 +215,7 @@ Json judge(const std::vector<Frame>& course, double cap)
         return double(last - first) / (course[last].wall_s - course[first].wall_s);
     };
     return {{"frames_within_5_percent", double(near) / counted},
+            {"frames_within_10_percent", double(within_10) / counted},
             {"work_ms_median", median},
             {"work_ms_p95", quantile(course, settling, course.size(), 0.95, work)},
             {"largest_over_median", jump},
@@ -207,16 +225,17 @@ Json judge(const std::vector<Frame>& course, double cap)
             {"frame_rate_hz_at_the_end", rate(course.size() - 100)}};
 }
 
-/// Frames from the load's begin and from its end until the work stays within a tenth of the target for ten
-/// frames; -1: not before the load ended.
+/// Frames after `begin_s` until the median work of nine frames has come within a tenth of the target and
+/// stays there for ten; -1: not before `end_s`. Single frames say little where processors are fought for.
 int settled_after(const std::vector<Frame>& course, double begin_s, double end_s)
 {
     int since = 0, steady = 0;
-    for (const Frame& frame : course) {
-        if (frame.wall_s < begin_s || frame.wall_s > end_s)
+    for (std::size_t i = 9; i < course.size(); ++i) {
+        if (course[i].wall_s < begin_s || course[i].wall_s > end_s)
             continue;
         ++since;
-        steady = std::abs(frame.work_ms() / frame.target_ms - 1) <= 0.1 ? steady + 1 : 0;
+        const double ms = quantile(course, i - 8, i + 1, 0.5, work);
+        steady = std::abs(ms / course[i].target_ms - 1) <= 0.1 ? steady + 1 : 0;
         if (steady == 10)
             return since - 10;
     }
@@ -234,8 +253,9 @@ void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::f
         {"frames per second", "2"}, {"work of a frame [ms]", "3"}, {"maximum cluster size", "4"}};
     for (const auto& [name, course] : courses) {
         std::ofstream data(folder / (name + ".dat"));
-        for (std::size_t i = 1; i < course.size(); ++i)
-            data << i << ' ' << 1 / std::max(course[i].wall_s - course[i - 1].wall_s, 1e-6) << ' '
+        constexpr std::size_t mean = 5; // frames that the rate is taken over
+        for (std::size_t i = mean; i < course.size(); ++i)
+            data << i << ' ' << double(mean) / (course[i].wall_s - course[i - mean].wall_s) << ' '
                  << course[i].work_ms() << ' ' << course[i].size << '\n';
     }
     for (const auto& [title, column] : panels) {
@@ -282,7 +302,16 @@ try {
     const std::vector<Frame> loaded =
         experiment.run(750, {"control.mode=\"smooth\"", "control.largest_cluster_size=1000"}, true, true);
 
-    Json result{{"droplets_per_second", experiment.rate}};
+    const double size = courses["smooth"].back().size;
+    const std::vector<Frame> still = experiment.run(frames, fixed(size, size / 2), true);
+    const std::size_t steady = frames - 200;
+    const double usual = quantile(still, steady, frames, 0.5, work);
+
+    Json result{{"droplets_per_second", experiment.rate},
+                {"fixed_sizes",
+                 {{"frames_within_5_percent_of_their_median", share_near(still, steady, usual, 0.05)},
+                  {"frames_within_10_percent_of_their_median", share_near(still, steady, usual, 0.1)}}}};
+    std::printf("fixed sizes, the machine's own spread: %s\n", result["fixed_sizes"].dump().c_str());
     for (const auto& [name, course] : courses) {
         result[name] = name == "without clusters"
                            ? Json{{"work_ms_at_the_end", quantile(course, frames - 100, frames, 0.5, work)}}

@@ -1,12 +1,13 @@
+#include "cost/answer.hpp"
+#include "cost/metrics.hpp"
+#include "cost/report_files.hpp"
+#include "cost/sweep.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "cost/answer.hpp"
-#include "cost/metrics.hpp"
-#include "cost/report_files.hpp"
-#include "cost/sweep.hpp"
 #include "support/clouds.hpp"
 #include "support/small_scenes.hpp"
 
@@ -40,7 +41,8 @@ TEST(CostMetrics, AShiftIsAtHalfItsLength)
     }
 }
 
-// Along each axis the two halves are one and two away: the area is what one unit of length times the shares is.
+// Along each axis the two halves are one and two away: the area is what one unit of length times the shares
+// is.
 TEST(CostMetrics, CloudsOfDifferentNumberAreCompared)
 {
     const Points twice{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, once{{0, 0, 0}, {1, 0, 0}};
@@ -94,7 +96,8 @@ Sweep small_sweep(double strength = 1)
     };
     SweepPlan plan{.settings = {{Motion::Flow, 8}, {Motion::Rigid, 8}}, .frames = 60, .seeds = 3};
     double now = 0;
-    return run_sweep(scene, initial, plan, [&] { return now += 1; }, [](const std::string&, double) {});
+    return run_sweep(
+        scene, initial, plan, [&] { return now += 1; }, [](const std::string&, double) {});
 }
 
 TEST(CostSweep, TheUnclusteredRunComesFirstAndHasNoError)
@@ -131,7 +134,9 @@ TEST(CostSweep, ABrokenRunIsFlagged)
         ParticleSet cloud;
         test::add_cloud(cloud, {.count = 2000}, seed);
         double now = 0;
-        return run_trial(settings, cloud, 250, [&] { return now += 1; }, [](int) {}).particles;
+        return run_trial(
+                   settings, cloud, 250, [&] { return now += 1; }, [](int) {})
+            .particles;
     };
     const Points good = positions(run(1, 1)), other = positions(run(1, 2)), broken = positions(run(0.5, 1));
     EXPECT_GT(sliced_wasserstein(good, broken), 3 * sliced_wasserstein(good, other));
@@ -147,8 +152,9 @@ TEST(CostSweep, AFixedCloudHasItsFloorFromBootstrapSamples)
         return particles;
     };
     double now = 0;
-    const Sweep sweep = run_sweep(scene, initial, {.settings = {}, .frames = 10, .seeds = 2},
-                                  [&] { return now += 1; }, [](const std::string&, double) {});
+    const Sweep sweep = run_sweep(
+        scene, initial, {.settings = {}, .frames = 10, .seeds = 2}, [&] { return now += 1; },
+        [](const std::string&, double) {});
     EXPECT_TRUE(sweep.floor.resampled);
     EXPECT_GT(sweep.floor.position, 0);
 }
