@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "effects/emitter.hpp"
@@ -37,6 +38,9 @@ public:
     Births update(SlodTree& tree, const UpdateContext& context, bool kicked, std::uint64_t room);
 
     const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
+
+    /// The open cluster of each emitter; invalid, or of a cluster that has ended, where it has none.
+    std::span<const ClusterId> cohorts() const { return cohorts_; }
 
     /// Particles each emitter has started before `time`: the state of the random numbers.
     std::vector<std::uint64_t> counts_before(double time) const;

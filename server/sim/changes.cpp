@@ -86,7 +86,7 @@ Problems Simulation::add_region(const RegionOfInterest& region)
     if (!found.empty())
         return found;
     open_region(s.tree, region);
-    s.take_up_merging();
+    s.plan.runs[std::size_t(Phase::Update)] = true;
     return {};
 }
 
@@ -106,7 +106,6 @@ Problems Simulation::change_region(const RegionOfInterest& region)
     const bool same_sources = s.tree.subtrees[*row].settings.attracts == region.partition.attracts;
     s.forces_stale = s.forces_stale || (s.settings.gravity && !same_sources);
     slod::change_region(s.tree, *row, region, s.store.clusters);
-    s.take_up_merging();
     return {};
 }
 
@@ -164,7 +163,6 @@ Problems Simulation::set_detail(const Detail& detail)
         return {"cluster_size cannot change: the scene was planned without clusters; start it with "
                 "background.max_cluster_size above 1."};
     slod::set_detail(s.tree, detail, s.store.clusters);
-    s.regrouping.allow_merging();
     s.set_detail();
     return {};
 }
@@ -194,14 +192,6 @@ void Simulation::State::set_fields()
     fields = UniformFields(settings.uniform_gravity, settings.linear_drag, settings.uniform_wind);
     propagator = fields.over(settings.time.step);
     emission.set_fields(fields);
-}
-
-/// Regions come and go: what a fine one left small may be merged again.
-void Simulation::State::take_up_merging()
-{
-    if (!plan.unclustered)
-        regrouping.allow_merging();
-    plan.runs[std::size_t(Phase::Update)] = true;
 }
 
 } // namespace slod

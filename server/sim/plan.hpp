@@ -32,7 +32,7 @@ struct Plan {
     bool map_is_exact = false; ///< maps never age: only size, breadth and regions re-form a cluster
     bool clocked = false;      ///< maps age, and pools are re-formed by the dynamical clock
     bool unclustered = false;  ///< one particle per cluster everywhere
-    bool merging = false;      ///< clusters that move alike merge
+    bool merging = false;      ///< clusters that move alike merge from the start: SlodTree::merging
     bool finite_lives = false; ///< particles expire
     bool several_kinds = false;
     bool several_masses = false;

@@ -68,7 +68,7 @@ std::uint64_t Simulation::state_hash() const
 {
     const State& s = *state_;
     const auto counters = s.emission.counts_before(double(s.frame) * s.settings.time.step);
-    return hash_state(s.store, s.tree, {s.frame, counters});
+    return hash_state(s.store, s.tree, {s.frame, counters, s.emission.cohorts()});
 }
 
 ParticleSet Simulation::particles() const

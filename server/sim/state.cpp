@@ -75,14 +75,14 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       propagator(fields.over(scene.time.step)),
       store(cluster_columns(plan, scene), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, scene.time.step)),
-      tree(tree_of(scene, initial)), reforming(scene.motion, context()),
-      regrouping(scene.motion, plan.merging, context()),
+      tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(scene.motion, context()),
       emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step),
       particle_count(initial.size())
 {
     if (scene.gravity)
         gravitational_constant *= scene.gravity->strength;
     set_detail();
+    tree.merging = tree.merging || plan.merging;
     store.uniform_mass = plan.uniform_mass;
     for (const ParticleKind& kind : scene.kinds)
         store.kind_softening_squared.push_back(kind.softening * kind.softening);

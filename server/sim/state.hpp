@@ -35,7 +35,6 @@ struct Simulation::State {
 
     std::optional<RegionRow> find_region(std::string_view name) const;
     void check_sharing(const RegionOfInterest& region, Problems& found) const;
-    void take_up_merging();
     void scale_pulls(double factor);
     void set_fields(); ///< from the settings
     void set_detail(); ///< from the settings and the tree's detail

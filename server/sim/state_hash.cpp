@@ -38,6 +38,7 @@ private:
 };
 
 static_assert(sizeof(Moments) == 28 * sizeof(double), "no padding, hashed as a whole");
+static_assert(sizeof(ClusterId) == 2 * sizeof(std::uint32_t), "no padding, hashed as a whole");
 static_assert(sizeof(FlowMap) == 36 * sizeof(float), "no padding, hashed as a whole");
 
 void add_cluster(Hasher& hasher, const ClusterStore& store, std::size_t slot)
@@ -136,9 +137,11 @@ std::uint64_t hash_state(const ClusterStore& store, const SlodTree& tree, const 
         add_region(hasher, region);
     Detail detail = tree.detail; // for_each_field takes what it may change
     for_each_field(detail, [&](const Field&, auto& value) { hasher.add(value); });
+    hasher.add(tree.merging);
     hasher.add(store.uniform_mass);
     hasher.add(run.frame);
     hasher.add(run.random_counters.data(), run.random_counters.size());
+    hasher.add(run.cohorts.data(), run.cohorts.size());
     return hasher.digest();
 }
 

@@ -40,7 +40,8 @@ void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& count
     move_crossing(tree, counts);
     split(tree, counts);
     revise(tree);
-    if (merging_)
+    const auto grow = [](const Subtree& subtree) { return subtree.growth_limit() > 1; };
+    if (tree.merging && std::any_of(tree.subtrees.begin(), tree.subtrees.end(), grow))
         merge(tree, counts);
     free_closed(tree);
 }

@@ -13,20 +13,17 @@ namespace slod {
 
 /// The update of clusters whose maps do not age: those of exact flow maps, of rigid motion (O'Brien et
 /// al. 2001, sections 4.1 and 4.3) and single particles. A cluster whose centre crosses into another leaf
-/// or region moves to that one's pool; one that has become too large or too wide is split; where `merging`,
-/// two of one pool merge when together they are small enough and move alike.
+/// or region moves to that one's pool; one that has become too large or too wide is split; where the tree has
+/// `merging`, two of one pool merge when together they are small enough and move alike.
 class Regrouping {
 public:
-    Regrouping(const MotionSettings& motion, bool merging, const UpdateContext& context)
-        : merged_velocities_(motion.merged_velocities), merging_(merging), context_(context)
+    Regrouping(const MotionSettings& motion, const UpdateContext& context)
+        : merged_velocities_(motion.merged_velocities), context_(context)
     {}
 
     /// Divides clusters by their members' velocities, wherever those are, until in each of them the region's
     /// speed ratio and angle hold between any two members.
     void divide_by_velocity(SlodTree& tree, std::uint64_t frame);
-
-    /// Lets clusters merge from here on, whatever was said at the start.
-    void allow_merging() { merging_ = true; }
 
     /// Provides memory for updates that form `particle_count` particles anew, in the clusters there is room
     /// for.
@@ -57,7 +54,6 @@ private:
     void expand_crowded(Subtree& tree, PoolId pool);
 
     MergedVelocities merged_velocities_;
-    bool merging_;
     UpdateContext context_;
     Grouping grouping_;
     Pairing pairing_;

@@ -168,7 +168,7 @@ RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)
     const Box nowhere{all_space.upper, all_space.lower}; // meets nothing
     const Box before = tree.regions[row].moved ? tree.regions[row].before : nowhere;
     tree.regions[row] = {.settings = region, .number = tree.openings++, .open = true, .before = before};
-    tree.regions[row].moved = tree.unsettled = true;
+    tree.regions[row].moved = tree.unsettled = tree.merging = true;
     return RegionRow(row);
 }
 
@@ -185,6 +185,7 @@ void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region
 
 void set_detail(SlodTree& tree, const Detail& detail, ClusterTable& clusters)
 {
+    tree.merging = tree.merging || detail != tree.detail;
     tree.detail = detail;
     for (std::size_t row = 0; row < tree.regions.size(); ++row)
         if (tree.regions[row].open)

@@ -42,6 +42,9 @@ struct SlodTree {
     std::uint64_t openings = 0;    ///< regions opened so far
     std::uint64_t reinserted = 0;  ///< clusters put into cells anew so far
     bool unsettled = false;        ///< a region changed since settle()
+    /// Clusters that move alike merge: where the scene says so, and from the first region of interest or
+    /// change of detail on, as what those made small is to grow again. Never taken back.
+    bool merging = false;
 
     Subtree& of(const PoolRef& ref) { return subtrees[ref.region]; }
     const Subtree& of(const PoolRef& ref) const { return subtrees[ref.region]; }

@@ -57,7 +57,7 @@ Sizes parts_of(std::uint32_t size, double limit, double radius)
 {
     test::World world({MapKind::Identity, 0, 1}, {}, paper_region(limit), 8);
     world.add(ball(size, radius, 0, 1, {4, 4, 4}));
-    Regrouping regrouping({}, false, world.context(0));
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 8; ++frame)
         regrouping.update(world.tree, frame, counts);
@@ -108,7 +108,8 @@ std::pair<std::uint64_t, std::uint64_t> merge_and_split(std::size_t each, double
     test::World world({MapKind::Identity, 0, 1}, {}, region, 1);
     world.add(clump(each, {0.1, 0.5, 0.5}, {0, 0, 0}, 1));
     world.add(clump(each, Vector3d(0.1, 0.5, 0.5) + apart, {0, 0, 0}, 100));
-    Regrouping regrouping({}, true, world.context(0));
+    world.tree.merging = true;
+    Regrouping regrouping({}, world.context(0));
     std::uint64_t merged = 0, split = 0;
     for (std::uint64_t frame = 1; frame <= 200; ++frame) {
         UpdateCounts counts;
@@ -155,7 +156,8 @@ bool merge(const RegionSettings& region, const Vector3d& first, const Vector3d& 
     test::World world({MapKind::Identity, 0, 1}, {}, one_place, 8);
     world.add(clump(2, {1, 1, 1}, first, 1));
     world.add(clump(2, {1, 1, 1}, second, 10));
-    Regrouping regrouping({}, true, world.context(0));
+    world.tree.merging = true;
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 16; ++frame)
         regrouping.update(world.tree, frame, counts);

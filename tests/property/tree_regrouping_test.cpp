@@ -32,6 +32,7 @@ public:
             particle.velocity += Vector3d(0.6, 0.3, 0);
             world.add({particle});
         }
+        world.tree.merging = true;
     }
 
     void advance()
@@ -47,7 +48,7 @@ public:
     }
 
     test::World world;
-    Regrouping regrouping{{}, true, world.context(0)};
+    Regrouping regrouping{{}, world.context(0)};
     UpdateCounts counts;
     std::uint64_t frame = 0;
 };
@@ -129,7 +130,8 @@ TEST(Regrouping, GoesOnUntilNothingMayMerge)
     test::World world({MapKind::Identity, 0, step}, {}, limits, 1);
     for (const Particle& particle : test::ball(200, 1, 0, 1))
         world.add({particle});
-    Regrouping regrouping({}, true, world.context(0));
+    world.tree.merging = true;
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 400; ++frame)
         regrouping.update(world.tree, frame, counts);

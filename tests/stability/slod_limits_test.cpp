@@ -18,7 +18,8 @@ TEST(SlodStability, S07_ParticlesInOnePlaceAreDividedByTheirNumber)
     for (const std::size_t count : {9U, 64U, 1000U}) {
         test::World world({MapKind::Identity, 0, 1}, {}, {.max_cluster_size = 8}, 1);
         world.add(ball(count, 0, 0, 1, {0.5, 0.5, 0.5}));
-        Regrouping regrouping({}, true, world.context(0));
+        world.tree.merging = true;
+        Regrouping regrouping({}, world.context(0));
         UpdateCounts counts;
         for (std::uint64_t frame = 1; frame <= 100; ++frame)
             regrouping.update(world.tree, frame, counts);

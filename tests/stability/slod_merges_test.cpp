@@ -35,7 +35,8 @@ struct RoundTrip {
 
     void run()
     {
-        Regrouping regrouping({}, true, world.context(0));
+        world.tree.merging = true;
+        Regrouping regrouping({}, world.context(0));
         for (const double size : {64.0, 5.0, 32.0, 1.0}) {
             world.region().settings.max_cluster_size = size;
             for (int i = 0; i < 100; ++i) {
@@ -87,7 +88,8 @@ TEST(SlodStability, S02_EveryMergeTurnsTheCentresEnergyIntoInternalEnergy)
     give_masses(particles, 0.1, 10, 1);
     RoundTrip trip(particles);
     trip.world.region().settings.max_cluster_size = 64;
-    Regrouping regrouping({}, true, trip.world.context(0));
+    trip.world.tree.merging = true;
+    Regrouping regrouping({}, trip.world.context(0));
     const auto of_centres = [&] {
         double energy = 0;
         const ClusterTable& clusters = trip.world.store.clusters;
@@ -129,7 +131,8 @@ TEST(SlodStability, S02_WhereVelocitiesCollapseAMergeLosesTheEnergyOfTheRelative
                          (pair.velocity - pair.other_velocity).squaredNorm();
     }
     const double before = conserved_quantities(world.store, 0).kinetic_energy;
-    Regrouping regrouping({.merged_velocities = MergedVelocities::Collapse}, true, world.context(0));
+    world.tree.merging = true;
+    Regrouping regrouping({.merged_velocities = MergedVelocities::Collapse}, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 32; ++frame)
         regrouping.update(world.tree, frame, counts);

@@ -20,7 +20,8 @@ TEST(SlodStability, S05_JitterOverAFaceOfACellFormsNothingAnew)
     for (const double amplitude : {1e-3, 1e-16}) {
         test::World world({MapKind::Identity, 0, 1}, {}, {.max_cluster_size = 16}, 1);
         const ClusterSlot slot = world.add(ball(10, 0.2, 0, 1, {1, 0.5, 0.5}));
-        Regrouping regrouping({}, true, world.context(0));
+        world.tree.merging = true;
+        Regrouping regrouping({}, world.context(0));
         UpdateCounts counts;
         for (std::uint64_t frame = 1; frame <= 10'000; ++frame) {
             world.store.clusters.position[slot.index].x() = 1 + (frame % 2 == 0 ? amplitude : -amplitude);

@@ -40,7 +40,7 @@ AttractingWorld::AttractingWorld(const std::vector<ParticleSet>& regions, double
     }
     UpdateCounts ignored;
     if (regions.size() == 1)
-        Regrouping({}, false, world_.context(0)).update(world_.tree, 0, ignored);
+        Regrouping({}, world_.context(0)).update(world_.tree, 0, ignored);
     rebuild();
     for (std::size_t body = 0; body < view.body_count(); ++body)
         bodies.push_back({view.position(body), view.mass[body], view.q[body]});

@@ -51,7 +51,8 @@ void merge_pairs(std::vector<MergingPair>& pairs, const RegionSettings& limits)
         world.add({particle_of(pairs[i].mass, middle, pairs[i].velocity, 2 * i)});
         world.add({particle_of(pairs[i].other_mass, middle, pairs[i].other_velocity, 2 * i + 1)});
     }
-    Regrouping regrouping({}, true, world.context(0));
+    world.tree.merging = true;
+    Regrouping regrouping({}, world.context(0));
     for (std::uint64_t frame = 1; frame <= 16; ++frame) {
         UpdateCounts counts;
         regrouping.update(world.tree, frame, counts);

@@ -16,11 +16,12 @@ double cell_side(const RigidRules& rules)
 
 RigidWorld::RigidWorld(const RigidRules& rules, const ParticleSet& particles, bool singly)
     : world_({MapKind::Identity, 0, step}, {}, rules.background, cell_side(rules)),
-      regrouping_(rules.motion, rules.merging, world_.context(0))
+      regrouping_(rules.motion, world_.context(0))
 {
     for (const RegionOfInterest& region : rules.regions)
         open_region(world_.tree, region);
     settle(world_.tree);
+    world_.tree.merging = rules.merging;
     if (singly) {
         for (const Particle& particle : particles)
             world_.add({particle});

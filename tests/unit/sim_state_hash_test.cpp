@@ -40,11 +40,12 @@ public:
         world.store.members.ids(world.store.clusters.slab[0])[9] = unused;
     }
 
-    std::uint64_t hash() const { return hash_state(world.store, world.tree, {frame, counters}); }
+    std::uint64_t hash() const { return hash_state(world.store, world.tree, {frame, counters, cohorts}); }
 
     test::World world;
     std::uint64_t frame = 8;
     std::vector<std::uint64_t> counters = {4, 5};
+    std::vector<ClusterId> cohorts = {{{2}, 1}, {}};
     std::uint32_t free_slot = 0;
 };
 
@@ -109,7 +110,8 @@ std::vector<Value> plain_values(Hashed& state)
             value("speed_floor", region.settings.speed_floor),
             value("uniform_mass", store.uniform_mass),
             value("frame", state.frame),
-            value("counter", state.counters[1])};
+            value("counter", state.counters[1]),
+            value("cohort", state.cohorts[0])};
 }
 
 /// Those that say where or how many: another bit than the lowest would lead out of the arrays.
@@ -140,6 +142,7 @@ TEST(StateHash, ChangesWithEveryBitOfTheState)
             expect_seen(value, bit);
     for (const Value& value : places(state))
         expect_seen(value, 0);
+    expect_seen(value("merging", state.world.tree.merging), 0);
     EXPECT_EQ(state.hash(), before);
 }
 

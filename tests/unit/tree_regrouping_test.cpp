@@ -48,7 +48,7 @@ TEST(Regrouping, AClusterThatCrossesMovesToThePoolWhereItIs)
     test::World world(rigid, {}, {}, 1);
     const ClusterSlot slot =
         world.add({{.position = {0.93, 0.5, 0.5}, .velocity = {1, 0.33, -4}, .id = 1, .mass = 1}});
-    Regrouping regrouping({}, false, world.context(0));
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     std::set<std::uint32_t> pools;
     for (std::uint64_t frame = 1; frame <= 100; ++frame) {
@@ -67,7 +67,7 @@ TEST(Regrouping, AClusterBeyondTheRimOfTheGridStaysWhereItIs)
 {
     test::World world(rigid, {}, {}, 1);
     world.add({{.position = {1e12, 0, 0}, .velocity = {1e9, 0, 0}, .id = 1, .mass = 1}});
-    Regrouping regrouping({}, false, world.context(0));
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 20; ++frame) {
         drift(world);
@@ -83,7 +83,7 @@ TEST(Regrouping, AClusterThatHasGrownTooLargeIsSplitWithinEightFramesIntoPartsTh
         test::World world(rigid, {}, {.max_cluster_size = 10}, 8);
         world.add(some(size, 1, {2, 2, 2}, 1));
         const ParticleSet before = test::members(world.store, 1);
-        Regrouping regrouping({}, false, world.context(0));
+        Regrouping regrouping({}, world.context(0));
         UpdateCounts counts;
         for (std::uint64_t frame = 1; frame <= 8; ++frame)
             regrouping.update(world.tree, frame, counts);
@@ -108,7 +108,7 @@ TEST(Regrouping, AClusterThatIsTooWideIsSplitUntilNoPartIs)
         for (Particle& particle : particles)
             particle.mass = float(mass);
         world.add(particles);
-        Regrouping regrouping({}, false, world.context(0));
+        Regrouping regrouping({}, world.context(0));
         UpdateCounts counts;
         for (std::uint64_t frame = 1; frame <= 10; ++frame)
             regrouping.update(world.tree, frame, counts);
@@ -126,7 +126,8 @@ TEST(Regrouping, CoincidentParticlesAreSplitByTheirNumber)
 {
     test::World world(rigid, {}, {.max_cluster_size = 10, .max_breadth = 1}, 1);
     world.add(some(500, 0, {0.5, 0.5, 0.5}, 1));
-    Regrouping regrouping({}, true, world.context(0));
+    world.tree.merging = true;
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     for (std::uint64_t frame = 1; frame <= 40; ++frame)
         regrouping.update(world.tree, frame, counts);
@@ -140,7 +141,7 @@ TEST(Regrouping, PoolsAreDividedWhereItIsCrowdedAndMergedWhereItIsNot)
     test::World world(rigid, {}, {.max_cluster_size = 4, .pool_factor = 4}, 8);
     for (const Particle& particle : test::ball(1000, 3, 0, 1, {4, 4, 4}))
         world.add({particle});
-    Regrouping regrouping({}, false, world.context(0));
+    Regrouping regrouping({}, world.context(0));
     UpdateCounts counts;
     regrouping.update(world.tree, 8, counts);
     for (const Pool& pool : world.region().pools)
