@@ -86,7 +86,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     store.uniform_mass = plan.uniform_mass;
     for (const ParticleKind& kind : scene.kinds)
         store.kind_softening_squared.push_back(kind.softening * kind.softening);
-    reforming.found(tree, initial, frame);
+    reforming.found(tree, initial, frame, plan.clocked ? Reforming::Strays::Come : Reforming::Strays::None);
     if (plan.merging && scene.motion.build_respects_limits)
         regrouping.divide_by_velocity(tree, frame);
     make_room();

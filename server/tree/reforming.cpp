@@ -15,7 +15,7 @@ constexpr double sparse = 0.5; ///< of the pool limit: two sibling leaves are me
 /// Pools that keep one turn. Neighbours that end their lives together exchange members without strays;
 /// all pools at once would make every other frame long.
 constexpr std::uint32_t pools_per_turn = 16;
-/// Share of the maximum size that clusters are formed at; strays fill the rest.
+/// Share of the maximum size that clusters are formed at where strays come, to fill the rest.
 constexpr double filled = 0.7;
 
 /// A particle where it will be, accelerated as the cluster it comes from.
@@ -32,7 +32,7 @@ Reforming::Reforming(const MotionSettings& motion, const UpdateContext& context)
     : motion_(motion), context_(context)
 {}
 
-void Reforming::found(SlodTree& tree, std::span<const Particle> particles, std::uint64_t frame)
+void Reforming::found(SlodTree& tree, std::span<const Particle> particles, std::uint64_t frame, Strays strays)
 {
     context_.frame = frame;
     due_.clear();
@@ -47,7 +47,7 @@ void Reforming::found(SlodTree& tree, std::span<const Particle> particles, std::
     }
     gather_groups(tree);
     expand_crowded(tree);
-    form(tree);
+    form(tree, strays);
 }
 
 void Reforming::reform_all(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)
@@ -87,7 +87,7 @@ void Reforming::reform(SlodTree& tree, UpdateCounts& counts)
     gather_groups(tree);
     expand_crowded(tree);
     place_strays(tree, counts);
-    form(tree);
+    form(tree, Strays::Come);
     counts.due_pools += due_.size();
     counts.reformed_members += grouping_.particles.size();
 }
@@ -332,13 +332,14 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
     return inserted;
 }
 
-void Reforming::form(SlodTree& tree)
+void Reforming::form(SlodTree& tree, Strays strays)
 {
+    const double share = strays == Strays::Come ? filled : 1;
     for (Grouping::Group& group : grouping_.groups) {
         const Subtree& subtree = tree.of(group.pool);
         const std::uint32_t size = subtree.max_cluster_size();
         const double most = subtree.dithered ? subtree.settings.max_cluster_size : size;
-        const double goal = std::max(filled * most, 1.0);
+        const double goal = std::max(share * most, 1.0);
         group.clusters = clusters_for(group.count, goal);
         group.spare_rows = size - std::uint32_t(goal);
     }

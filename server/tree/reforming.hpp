@@ -24,8 +24,12 @@ public:
     /// Takes another dynamical clock for the lives to come, in units of the local dynamical time.
     void set_clock(double clock) { motion_.clock = clock; }
 
+    /// Whether strays will come to clusters that are formed, for which they keep room.
+    enum class Strays : bool { None, Come };
+
     /// Forms clusters of `particles`, none of which has one yet.
-    void found(SlodTree& tree, std::span<const Particle> particles, std::uint64_t frame);
+    void found(SlodTree& tree, std::span<const Particle> particles, std::uint64_t frame,
+               Strays strays = Strays::Come);
 
     /// Ends all lives now, whatever their clocks say: for lives that the first forces have yet to set.
     void reform_all(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts);
@@ -53,7 +57,7 @@ private:
     void expand_group(SlodTree& tree, std::size_t group);
     void place_strays(SlodTree& tree, UpdateCounts& counts);
     std::uint32_t insert_strays(SlodTree& tree, Grouping::Group& group);
-    void form(SlodTree& tree);
+    void form(SlodTree& tree, Strays strays);
 
     std::uint64_t wanted_life(const SlodTree& tree, const PoolRef& pool) const;
     void start_life(Pool& pool, std::uint64_t life) const;

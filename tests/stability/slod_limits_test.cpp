@@ -27,10 +27,11 @@ TEST(SlodStability, S07_ParticlesInOnePlaceAreDividedByTheirNumber)
         EXPECT_EQ(counts.splits, 1U) << "and never again";
         EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
     }
-    // The build fills clusters to 0.7 of the maximum; it ends, and gives the same each time.
+    // The build ends, fills every cluster, as no stray will ever come to it, and gives the same each time.
     Simulation one(rigid_settings(8), ball(1000, 0, 0, 1), {}),
         other(rigid_settings(8), ball(1000, 0, 0, 1), {});
-    EXPECT_LE(run(one, 40).counts.clusters, 1000 / 5.6 + 1);
+    EXPECT_EQ(one.snapshot({}).counts.clusters, 1000U / 8);
+    run(one, 40);
     run(other, 40);
     EXPECT_EQ(one.state_hash(), other.state_hash());
 }
@@ -69,7 +70,7 @@ TEST(SlodStability, S08_RowsSquaresAndCubesAreDividedEvenlyInAFlatTree)
             largest = std::max(largest, world.clusters().count[slot.index]);
         }
         EXPECT_LE(largest, size);
-        EXPECT_GE(smallest, size / 4) << "a pool has 8 to 16, and a cluster no less than half of 0.7 of 8";
+        EXPECT_GE(smallest, size / 2) << "a pool has 8 to 16, which are one cluster or two";
         int deepest = 0;
         for (const Node& node : world.tree().subtrees.front().nodes)
             deepest = std::max(deepest, node.depth);

@@ -26,7 +26,7 @@ RigidWorld::RigidWorld(const RigidRules& rules, const ParticleSet& particles, bo
         for (const Particle& particle : particles)
             world_.add({particle});
     } else if (!particles.empty()) {
-        Reforming(rules.motion, world_.context(0)).found(world_.tree, particles, 0);
+        Reforming(rules.motion, world_.context(0)).found(world_.tree, particles, 0, Reforming::Strays::None);
         if (rules.motion.build_respects_limits)
             regrouping_.divide_by_velocity(world_.tree, 0);
     }
