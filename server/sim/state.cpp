@@ -86,7 +86,9 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     store.uniform_mass = plan.uniform_mass;
     for (const ParticleKind& kind : scene.kinds)
         store.kind_softening_squared.push_back(kind.softening * kind.softening);
-    reforming.found(tree, initial, frame, plan.clocked ? Reforming::Strays::Come : Reforming::Strays::None);
+    // By one of its own, so that its room for all particles is given back.
+    Reforming(scene.motion, context())
+        .found(tree, initial, frame, plan.clocked ? Reforming::Strays::Come : Reforming::Strays::None);
     if (plan.merging && scene.motion.build_respects_limits)
         regrouping.divide_by_velocity(tree, frame);
     make_room();

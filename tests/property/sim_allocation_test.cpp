@@ -71,6 +71,21 @@ TEST_P(AllocationFree, InAllPhasesButCommandsAndEmitFromTheStart)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AllocationFree, testing::ValuesIn(small_scenes()), name_of);
 
+// The members' chunk has a row of 32 bytes for each of 2^20 particles. Clusters, and room to form an eighth
+// of the particles anew, take less than 100 bytes for each; to form all of them once takes some 200.
+TEST(SimulationMemory, OfTheFirstFormingIsGivenBackWhereNoneFollows)
+{
+    constexpr std::uint64_t count = 300'000;
+    SmallScene scene{"cloud", quiet_settings(), {}};
+    add_cloud(scene.initial, {.count = count}, 1);
+    const std::uint64_t before = bytes_held();
+    const Simulation simulation(scene.settings, scene.initial, {});
+    const std::uint64_t held = bytes_held() - before;
+    EXPECT_GT(held, 32U << 20);
+    EXPECT_LT(held, (32U << 20) + 100 * count);
+    RecordProperty("bytes_per_particle", std::to_string(double(held - (32U << 20)) / double(count)));
+}
+
 // Lest the other tests count nothing.
 TEST(AllocationCounter, CountsEveryNew)
 {

@@ -2,18 +2,26 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <malloc.h>
 #include <new>
 
 // Every form that may be called is defined: the library's own forms for arrays and without exceptions call
 // the plain ones, but those of AddressSanitizer, which it would take in their place, do not.
 namespace {
 
-std::atomic<std::uint64_t> calls{0};
+std::atomic<std::uint64_t> calls{0}, held{0};
 
 void* counted(void* memory)
 {
     ++calls;
+    held += malloc_usable_size(memory);
     return memory;
+}
+
+void give_back(void* memory) noexcept
+{
+    held -= malloc_usable_size(memory);
+    std::free(memory);
 }
 
 void* take(std::size_t size) noexcept
@@ -39,6 +47,11 @@ void* or_throw(void* memory)
 std::uint64_t slod::test::allocations()
 {
     return calls;
+}
+
+std::uint64_t slod::test::bytes_held()
+{
+    return held;
 }
 
 void* operator new(std::size_t size)
@@ -73,50 +86,50 @@ void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
 
 void operator delete(void* memory) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete[](void* memory) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete(void* memory, std::size_t) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete[](void* memory, std::size_t) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete(void* memory, std::align_val_t) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete[](void* memory, std::align_val_t) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete(void* memory, const std::nothrow_t&) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }
 
 void operator delete[](void* memory, const std::nothrow_t&) noexcept
 {
-    std::free(memory);
+    give_back(memory);
 }

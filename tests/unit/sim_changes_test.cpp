@@ -34,7 +34,8 @@ TEST_P(NoChange, OfTheBackgroundOrTheDetailChangesNoLaterFrame)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, NoChange, testing::Values("fountain", "flow", "rigid", "regions", "unclustered"),
+INSTANTIATE_TEST_SUITE_P(Scenes, NoChange,
+                         testing::Values("fountain", "flow", "rigid", "regions", "unclustered"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 /// Merges in 40 frames of a resting cloud in exact flow, once its background allows larger clusters and
