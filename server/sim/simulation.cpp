@@ -22,9 +22,8 @@ const Snapshot& Simulation::step(const Request& request)
     State& s = *state_;
     s.snapshot.profile = {};
     s.snapshot.counts = {};
-    ++s.frame;
     //                                                      reads                   writes
-    s.run(Phase::Commands, [&] { s.open_frame(); });     // retired slabs        -> member pool
+    s.run(Phase::Commands, [&] { s.open_frame(); });     // slabs, regions       -> pool, tree, tides, frame
     s.run(Phase::OpenKick, [&] { s.kick(); });           // accelerations, tides -> velocities, maps
     s.run(Phase::Propagate, [&] { s.propagate(); });     // velocities, maps     -> positions, maps
     s.run(Phase::Emit, [&] { s.emit(); });               // emitters, expiries   -> clusters, members

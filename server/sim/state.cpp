@@ -110,7 +110,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 
 void Simulation::State::open_frame()
 {
-    store.members.recycle(frame);
+    store.members.recycle(frame + 1);
     if (tree.unsettled)
         settle(tree);
     make_room();
@@ -119,6 +119,7 @@ void Simulation::State::open_frame()
         evaluate_forces();
         forces_stale = false;
     }
+    ++frame;
 }
 
 void Simulation::State::make_room()

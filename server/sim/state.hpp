@@ -20,8 +20,10 @@ namespace slod {
 struct Simulation::State {
     State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options);
 
-    void open_frame(); ///< Commands: recycles member slabs, and makes room
-    void make_room();  ///< Provides memory for the frame, so that no other phase but emit has to take any
+    /// Commands: recycles member slabs, lets changes of regions and of gravity count, makes room, and counts
+    /// the frame that begins.
+    void open_frame();
+    void make_room(); ///< Provides memory for the frame, so that no other phase but emit has to take any
     void kick();
     void close_kick();
     void propagate();

@@ -68,5 +68,22 @@ TEST(Merging, BeginsInExactFlowWithTheFirstRegionOrAnotherDetailAndNotWithAChang
               0U);
 }
 
+// Scalar maps are closed forms of the age, so that a shape is no longer the same a frame later. That the
+// background attracts its own region alone makes no difference where there is no other, but that forces are
+// evaluated once more before the next frame.
+TEST(ForcesThatAreEvaluatedAgain, AreThoseOfTheFrameThatHasEnded)
+{
+    const SmallScene scene = small_scene("stream");
+    Simulation left_alone(scene.settings, scene.initial, {}), changed(scene.settings, scene.initial, {});
+    RegionOfInterest background = changed.regions().back().settings;
+    background.partition.attracts = Attracts::OwnRegion;
+    run(left_alone, 7);
+    run(changed, 7);
+    ASSERT_EQ(changed.change_region(background), Problems{});
+    run(left_alone, 1);
+    run(changed, 1);
+    EXPECT_EQ(rms_distance(changed.particles(), left_alone.particles()), 0);
+}
+
 } // namespace
 } // namespace slod::test
