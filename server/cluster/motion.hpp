@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 3> names(Motion)
 /// members by a common change of velocity (section 4.4) and speak of velocities that are averaged (5.1).
 enum class MergedVelocities : std::uint8_t {
     Keep,     ///< each member's own, so that a split restores it; energy of the centres becomes internal
-    Collapse, ///< all take the mean: the energy of their relative motion is lost
+    Collapse, ///< both clusters take the mean: the energy of their relative motion is lost
 };
 
 constexpr std::array<std::string_view, 2> names(MergedVelocities)
@@ -58,7 +58,7 @@ void for_each_field(MotionSettings& motion, Visitor&& visit)
           motion.shortest_life);
     visit(Field{"longest_life", "frames", "Longest life of a flow map; a power of two.", 1, 65536},
           motion.longest_life);
-    visit(Field{"merged_velocities", "", "Of members whose clusters merge: kept, or all set to their mean."},
+    visit(Field{"merged_velocities", "", "Of clusters that merge: kept, or both set to their mean."},
           motion.merged_velocities);
     visit(Field{"build_respects_limits", "",
                 "The first clusters are divided until speed_ratio and angle hold within each."},

@@ -37,7 +37,8 @@ private:
 /// Whether two clusters may become one (O'Brien et al. 2001, section 4.1): together no more than the
 /// maximum size and breadth, and speeds and directions, relative to the velocity `reference`, within the
 /// region's limits. Those hold for any member of one and any of the other, not only for their means, so
-/// that a chain of merges cannot exceed them. Below the speed floor they are not asked for.
+/// that a chain of merges cannot exceed them, unless merged velocities collapse: then members have no others
+/// than earlier merges have left them. Below the speed floor they are not asked for.
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
                std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 

@@ -186,23 +186,20 @@ void Regrouping::form_dissolved(SlodTree& tree, Vector3d Particle::*place)
     }
 }
 
-/// Gives the particles of each dissolved group their mean velocity: by mass, or by number when all are
-/// massless.
+/// Lets both clusters of each merging pair go at their common velocity, by mass or, when all are massless, by
+/// number: their members keep what they have about it, and just the energy of the two's relative motion is
+/// lost.
 void Regrouping::share_velocities()
 {
-    for (const Grouping::Group& group : grouping_.groups) {
-        const std::span<Particle> particles =
-            std::span(grouping_.particles).subspan(group.first, group.count);
-        double mass = 0;
-        Vector3d momentum(0, 0, 0), sum(0, 0, 0);
-        for (const Particle& particle : particles) {
-            mass += double(particle.mass);
-            momentum += double(particle.mass) * particle.velocity;
-            sum += particle.velocity;
-        }
-        const Vector3d mean = mass > 0 ? Vector3d(momentum / mass) : Vector3d(sum / double(group.count));
-        for (Particle& particle : particles)
-            particle.velocity = mean;
+    ClusterTable& clusters = context_.store.clusters;
+    for (std::size_t pair = 0; pair < merging_pairs_.size(); pair += 2) {
+        const std::size_t a = merging_pairs_[pair].index, b = merging_pairs_[pair + 1].index;
+        const bool massless = !(clusters.mass(a) + clusters.mass(b) > 0);
+        const double of_a = massless ? clusters.count[a] : clusters.mass(a);
+        const double of_b = massless ? clusters.count[b] : clusters.mass(b);
+        const Vector3d apart = clusters.mean_velocity(b) - clusters.mean_velocity(a);
+        clusters.velocity[a] += of_b / (of_a + of_b) * apart;
+        clusters.velocity[b] -= of_a / (of_a + of_b) * apart;
     }
 }
 
@@ -246,9 +243,9 @@ void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
             {.pool = {clusters.region[a], clusters.pool[a]}, .first = first, .count = count, .clusters = 1});
         first += count;
     }
-    dissolve(tree, grouping_, merging_pairs_, context_);
     if (merged_velocities_ == MergedVelocities::Collapse)
         share_velocities();
+    dissolve(tree, grouping_, merging_pairs_, context_);
     form_dissolved(tree, &Particle::position);
     counts.merges += merging_pairs_.size() / 2;
     counts.reformed_members += first;
