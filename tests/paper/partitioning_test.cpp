@@ -249,6 +249,23 @@ TEST(Paper, A25_TheBuildRespectsTheLimitsWhereThatIsAskedFor)
     EXPECT_TRUE(built.problems().empty());
 }
 
+TEST(Paper, A25_TheBuildOfASceneRespectsTheLimitsJustWhereTheSceneAsksForIt)
+{
+    ParticleSet particles = cube(2000, 2, 1);
+    for (Particle& particle : particles)
+        particle.velocity = Vector3d(particle.id % 2 == 0 ? 1 : -1, 0, 0);
+    SimulationSettings settings = rigid_settings(16);
+    for (const bool respects : {false, true}) {
+        settings.motion.build_respects_limits = respects;
+        Simulation simulation(settings, particles, {});
+        std::size_t mixed = 0;
+        for (const Vector3d& velocity : simulation.snapshot({.clusters = true}).clusters.velocity)
+            mixed +=
+                velocity.norm() < 1 - 1.0 / 16; // one of at most 16 the other way takes off twice as much
+        EXPECT_EQ(mixed > 0, !respects);
+    }
+}
+
 TEST(Paper, A26_TheLimitsTakeNoMemory)
 {
     SimulationSettings free = rigid_settings(16), limited = free;
