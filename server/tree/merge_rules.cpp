@@ -64,6 +64,10 @@ Turn between(const Vector3d& a, const Vector3d& b)
     return {a.dot(b) / product, a.cross(b).norm() / product};
 }
 
+/// Ten roundings are between two parallel velocities and the cosine of the angle between them: of their
+/// product three, of their lengths five, of the product of those and the quotient two.
+constexpr double cosine_rounding = 10 * 0x1p-53;
+
 /// Of `size` times the largest principal variance, for a cluster no wider than `limit`.
 double largest_variance_sum(double limit, double size)
 {
@@ -102,7 +106,8 @@ bool MergeRules::move_alike(const VelocityBall& a, const VelocityBall& b) const
     if (region_.angle_deg >= 180)
         return true;
     const Turn widest = between(a.mean, b.mean) * half_angle(a) * half_angle(b);
-    return widest.sine >= 0 && widest.cosine >= least_cosine_; // below 0: more than half a turn
+    return widest.sine >= 0 &&
+           widest.cosine >= least_cosine_ - cosine_rounding; // below 0: more than half a turn
 }
 
 bool MergeRules::fit(const ClusterStore& store, ClusterSlot a, ClusterSlot b, std::uint64_t frame) const

@@ -24,6 +24,7 @@ public:
     explicit MergeRules(const RegionSettings& region);
 
     /// Whether every velocity in one ball is within the limits of speed and angle to every one in the other.
+    /// Parallel velocities are within any angle, whatever their rounding.
     bool move_alike(const VelocityBall& a, const VelocityBall& b) const;
 
     /// Whether both together are no wider than the region allows.
@@ -42,7 +43,9 @@ private:
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
                std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 
-/// Whether the velocities of any two of its members are within the region's limits to each other.
+/// Whether the velocities of any two of its members are within the region's limits to each other: never true
+/// falsely, but false of some whose ball is wider than what is in it. That of two equal bodies 29.9 degrees apart
+/// is 31 degrees wide, though the two may merge.
 bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
                  std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 

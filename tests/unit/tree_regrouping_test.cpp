@@ -1,6 +1,7 @@
 #include <cmath>
 #include <set>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "support/clouds.hpp"
@@ -198,6 +199,23 @@ TEST(MayMerge, AsksForSizeBreadthSpeedRatioAndAngle)
         const bool slow = std::max(1.0, pair.velocity.norm()) * 0.2 <= 0.5;
         const bool fits = pair.size <= 5 && pair.distance < 4;
         EXPECT_EQ(may_merge(world.store, limits, a, b, 0), slow && fits) << pair.claim << ", below the floor";
+    }
+}
+
+TEST(MayMerge, TakesParallelVelocitiesAsSuchWhateverTheirRounding)
+{
+    const RegionSettings limits{.speed_ratio = 10, .angle_deg = 0};
+    Random random(13, 0, 0);
+    for (int i = 0; i < 1000; ++i) {
+        test::World world(rigid, {}, limits, 4);
+        ParticleSet first = some(1, 0, {0, 0, 0}, 1), second = some(1, 0, {0, 0, 0}, 2);
+        first[0].velocity = random_direction(random);
+        second[0].velocity = (1 + 3 * random.uniform()) * first[0].velocity;
+        const ClusterSlot a = world.add(first), b = world.add(second);
+        ASSERT_TRUE(may_merge(world.store, limits, a, b, 0)) << first[0].velocity.transpose();
+        const Vector3d across = first[0].velocity.cross(Vector3d(random_direction(random))).normalized();
+        world.store.clusters.velocity[b.index] += 1e-6 * across;
+        ASSERT_FALSE(may_merge(world.store, limits, a, b, 0)) << "a millionth off";
     }
 }
 
