@@ -44,8 +44,8 @@ bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterS
                std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 
 /// Whether the velocities of any two of its members are within the region's limits to each other: never true
-/// falsely, but false of some whose ball is wider than what is in it. That of two equal bodies 29.9 degrees apart
-/// is 31 degrees wide, though the two may merge.
+/// falsely, but false of some whose ball is wider than what is in it. That of two equal bodies 29.9 degrees
+/// apart is 31 degrees wide, though the two may merge.
 bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
                  std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
 

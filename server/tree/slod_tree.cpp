@@ -69,49 +69,6 @@ void partition(SlodTree& tree, RegionRow row, const RegionOfInterest& region, Cl
     }
 }
 
-bool meet(const Box& a, const Box& b)
-{
-    return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
-}
-
-/// Places that changed hands.
-std::vector<Box> changed_places(const SlodTree& tree)
-{
-    std::vector<Box> places;
-    for (const SlodTree::Region& region : tree.regions) {
-        if (!region.moved)
-            continue;
-        places.push_back(region.before);
-        if (region.open)
-            places.push_back(RegionTest(region.settings).bounds());
-    }
-    return places;
-}
-
-void mark_contested(SlodTree& tree, Subtree& subtree, const std::vector<Box>& changes)
-{
-    const bool all = tree.regions[subtree.region].laid_anew;
-    for_each_block(subtree.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t node = first; node < last; ++node) {
-            Node& marked = subtree.nodes[node];
-            const auto near = [&](const Box& change) { return meet(change, marked.box); };
-            if (all || std::any_of(changes.begin(), changes.end(), near))
-                marked.contested = tree.index.contested(marked.box, subtree.region);
-        }
-    });
-}
-
-/// A pool whose place changed hands, or whose region is closed, is due at once.
-void end_lives(const SlodTree& tree, Subtree& subtree, const std::vector<Box>& changes)
-{
-    const bool closed = !tree.regions[subtree.region].open;
-    for (Pool& pool : subtree.pools) {
-        const auto near = [&](const Box& change) { return meet(change, subtree.nodes[pool.node.index].box); };
-        if (pool.node.valid() && (closed || std::any_of(changes.begin(), changes.end(), near)))
-            pool.due_frame = 0;
-    }
-}
-
 /// Notes where the region was, if this is its first change since the tree was settled.
 void note_move(SlodTree& tree, RegionRow row, const Box& before)
 {
@@ -197,33 +154,6 @@ void close_region(SlodTree& tree, RegionRow row)
     SLOD_ASSERT(row != background_row && row < tree.regions.size() && tree.regions[row].open);
     tree.regions[row].open = false;
     note_move(tree, row, RegionTest(tree.regions[row].settings).bounds());
-}
-
-void settle(SlodTree& tree)
-{
-    std::vector<RegionRow> order;
-    for (std::size_t row = 1; row < tree.regions.size(); ++row)
-        if (tree.regions[row].open)
-            order.push_back(RegionRow(row));
-    std::sort(order.begin(), order.end(), [&](RegionRow a, RegionRow b) {
-        const SlodTree::Region& first = tree.regions[a];
-        const SlodTree::Region& second = tree.regions[b];
-        return first.settings.precedence != second.settings.precedence
-                   ? first.settings.precedence > second.settings.precedence
-                   : first.number < second.number;
-    });
-    std::vector<RegionIndex::Entry> entries;
-    for (const RegionRow row : order)
-        entries.push_back({row, RegionTest(tree.regions[row].settings)});
-    tree.index.assign(std::move(entries));
-    const std::vector<Box> changes = changed_places(tree);
-    for (Subtree& subtree : tree.subtrees) {
-        mark_contested(tree, subtree, changes);
-        end_lives(tree, subtree, changes);
-    }
-    for (SlodTree::Region& region : tree.regions)
-        region.moved = region.laid_anew = false;
-    tree.unsettled = false;
 }
 
 void free_closed(SlodTree& tree)

@@ -73,8 +73,9 @@ void set_detail(SlodTree& tree, const Detail& detail, ClusterTable& clusters);
 void close_region(SlodTree& tree, RegionRow row);
 
 /// Makes changed regions count: brings the index and the cells' marks up to date, and ends the lives of the
-/// pools where something changed. However often a region changed, where it was and is counts.
-void settle(SlodTree& tree);
+/// pools where something changed. However often a region changed, where it was and is counts. Returns how
+/// often a cell or node was compared with a change, which is what it costs.
+std::uint64_t settle(SlodTree& tree);
 
 /// Frees the rows of closed regions that hold nothing any more.
 void free_closed(SlodTree& tree);
