@@ -19,6 +19,7 @@ struct Id {
 using ClusterSlot = Id<struct ClusterSlotTag>; ///< a row of the cluster table; re-used after the cluster ends
 using NodeId = Id<struct NodeTag>;             ///< a node of one subtree
 using PoolId = Id<struct PoolTag>;             ///< a pool of one subtree
+using RunId = Id<struct RunTag>;               ///< what reaches into one cell of a grid of regions
 
 /// Names a cluster outside the step: its row, and how often the row had been given away before.
 struct ClusterId {

@@ -7,7 +7,8 @@
 
 namespace slod {
 
-std::size_t CellMap::home(const Cell& cell) const
+template <class Value>
+std::size_t CellMapOf<Value>::home(const Cell& cell) const
 {
     // Multiplicative mixing (Knuth 1998, vol. 3, 6.4) of the coordinates.
     std::uint64_t hash =
@@ -17,34 +18,44 @@ std::size_t CellMap::home(const Cell& cell) const
     return std::size_t(hash ^ (hash >> 31)) & mask();
 }
 
-std::size_t CellMap::position_of(const Cell& cell) const
+template <class Value>
+std::size_t CellMapOf<Value>::position_of(const Cell& cell) const
 {
     std::size_t position = home(cell);
-    while (slots_[position].root.valid() && slots_[position].cell != cell)
+    while (slots_[position].value.valid() && slots_[position].cell != cell)
         position = (position + 1) & mask();
     return position;
 }
 
-NodeId CellMap::find(const Cell& cell) const
+template <class Value>
+Value CellMapOf<Value>::find(const Cell& cell) const
 {
-    return slots_[position_of(cell)].root;
+    return slots_[position_of(cell)].value;
 }
 
-void CellMap::insert(const Cell& cell, NodeId root)
+template <class Value>
+std::size_t CellMapOf<Value>::probes(const Cell& cell) const
 {
-    SLOD_ASSERT(root.valid() && !find(cell).valid());
+    return 1 + ((position_of(cell) - home(cell)) & mask());
+}
+
+template <class Value>
+void CellMapOf<Value>::insert(const Cell& cell, Value value)
+{
+    SLOD_ASSERT(value.valid() && !find(cell).valid());
     reserve(size_ + 1);
-    slots_[position_of(cell)] = {cell, root};
+    slots_[position_of(cell)] = {cell, value};
     ++size_;
 }
 
-void CellMap::erase(const Cell& cell)
+template <class Value>
+void CellMapOf<Value>::erase(const Cell& cell)
 {
     std::size_t hole = position_of(cell);
-    SLOD_ASSERT(slots_[hole].root.valid());
+    SLOD_ASSERT(slots_[hole].value.valid());
     --size_;
     // Close the gap: whatever probed past the hole moves into it.
-    for (std::size_t next = (hole + 1) & mask(); slots_[next].root.valid(); next = (next + 1) & mask()) {
+    for (std::size_t next = (hole + 1) & mask(); slots_[next].value.valid(); next = (next + 1) & mask()) {
         const std::size_t displacement = (next - home(slots_[next].cell)) & mask();
         if (displacement >= ((next - hole) & mask())) {
             slots_[hole] = slots_[next];
@@ -54,19 +65,24 @@ void CellMap::erase(const Cell& cell)
     slots_[hole] = {};
 }
 
-void CellMap::reserve(std::size_t cells)
+template <class Value>
+void CellMapOf<Value>::reserve(std::size_t cells)
 {
     if (2 * cells > slots_.size())
         grow(std::bit_ceil(2 * cells));
 }
 
-void CellMap::grow(std::size_t slots)
+template <class Value>
+void CellMapOf<Value>::grow(std::size_t slots)
 {
     std::vector<Slot> old(slots);
     std::swap(old, slots_);
     for (const Slot& slot : old)
-        if (slot.root.valid())
+        if (slot.value.valid())
             slots_[position_of(slot.cell)] = slot;
 }
+
+template class CellMapOf<NodeId>;
+template class CellMapOf<RunId>;
 
 } // namespace slod

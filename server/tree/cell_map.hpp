@@ -17,17 +17,21 @@ struct Cell {
     friend constexpr auto operator<=>(const Cell&, const Cell&) = default;
 };
 
-/// The occupied cells of a sparse uniform grid and the root of each one's k-d tree: open addressing with
-/// linear probing, at most half full, so that a region of any size costs only what it holds.
-class CellMap {
+/// What is in the occupied cells of a sparse uniform grid, by an id: open addressing with linear probing, at
+/// most half full, so that a grid of any size costs only what it holds.
+template <class Value>
+class CellMapOf {
 public:
-    CellMap() : slots_(64) {}
+    CellMapOf() : slots_(64) {}
 
-    /// Root of the cell's k-d tree; invalid when the cell is not there.
-    NodeId find(const Cell& cell) const;
+    /// What is in the cell; invalid when it is not there.
+    Value find(const Cell& cell) const;
+
+    /// Slots that find() looks at for the cell.
+    std::size_t probes(const Cell& cell) const;
 
     /// The cell must not be there yet.
-    void insert(const Cell& cell, NodeId root);
+    void insert(const Cell& cell, Value value);
 
     /// The cell must be there.
     void erase(const Cell& cell);
@@ -37,19 +41,19 @@ public:
     /// Provides room for `cells` cells in all.
     void reserve(std::size_t cells);
 
-    /// Calls visit(cell, root) for every cell, in no particular but always the same order.
+    /// Calls visit(cell, value) for every cell, in no particular but always the same order.
     template <class Visitor>
     void for_each(const Visitor& visit) const
     {
         for (const Slot& slot : slots_)
-            if (slot.root.valid())
-                visit(slot.cell, slot.root);
+            if (slot.value.valid())
+                visit(slot.cell, slot.value);
     }
 
 private:
     struct Slot {
         Cell cell;
-        NodeId root;
+        Value value;
     };
 
     std::size_t mask() const { return slots_.size() - 1; }
@@ -60,5 +64,8 @@ private:
     std::vector<Slot> slots_; ///< a power of two of them
     std::size_t size_ = 0;
 };
+
+/// The roots of the cells' k-d trees.
+using CellMap = CellMapOf<NodeId>;
 
 } // namespace slod

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "tree/cell_map.hpp"
 #include "tree/region.hpp"
+#include "tree/region_grid.hpp"
 
 namespace slod {
 
@@ -12,8 +12,10 @@ namespace slod {
 using RegionRow = std::uint16_t;
 inline constexpr RegionRow background_row = 0;
 
-/// Which region takes what is at a place: the regions in their order of precedence, and a coarse grid that
-/// names those which reach into each of its cells, so that a thousand small regions cost what one does.
+/// Which region takes what is at a place: the regions in their order of precedence, and coarse grids that
+/// name those which reach into each of their cells, so that a thousand small regions cost what one does. Up
+/// to three, of cells as wide as the small, the median and the large regions, so that regions of any size
+/// reach into few.
 class RegionIndex {
 public:
     struct Entry {
@@ -35,29 +37,16 @@ public:
     const std::vector<Entry>& entries() const { return entries_; }
 
 private:
-    void lay_grid();
-    void spread(std::uint32_t rank);
-    bool fits_grid(const Box& bounds) const;
-    Cell cell_of(const Vector3d& x) const;
+    void lay_grids();
 
     /// Whether `holds(rank)` is true of any region that may reach into the box.
     template <class Condition>
     bool any_near(const Box& box, const Condition& holds) const;
 
-    /// A region that reaches into a cell of the grid.
-    struct Reach {
-        Cell cell;
-        std::uint32_t rank;
-
-        friend constexpr auto operator<=>(const Reach&, const Reach&) = default;
-    };
-
     std::vector<Entry> entries_;      ///< by rank
     std::vector<std::uint32_t> rank_; ///< by row
-    std::vector<std::uint32_t> wide_; ///< ranks of those too large for the grid
-    double side_ = 1;                 ///< of the grid's cells
-    std::vector<Reach> reaches_;      ///< by cell, then rank
-    CellMap first_reach_;             ///< by cell, row of `reaches_`
+    std::vector<std::uint32_t> wide_; ///< ranks of those too large for any grid, in order
+    std::vector<RegionGrid> grids_;   ///< by side
 };
 
 } // namespace slod
