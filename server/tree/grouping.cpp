@@ -107,7 +107,7 @@ void Grouping::reserve(std::size_t particle_count, std::size_t group_count, std:
 void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
               const UpdateContext& context)
 {
-    ClusterTable& clusters = context.store.clusters;
+    const ClusterTable& clusters = context.store.clusters;
     std::vector<std::uint32_t>& first =
         grouping.order; // holds the prefix sums until the particles are in place
     first.resize(slots.size());
@@ -127,12 +127,18 @@ void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> s
                 std::fill_n(grouping.pull.begin() + first[i], count, float(clusters.pull[slot]));
         }
     });
+    end_clusters(tree, slots, context);
+    grouping.resize(total);
+}
+
+void end_clusters(SlodTree& tree, std::span<const ClusterSlot> slots, const UpdateContext& context)
+{
+    ClusterTable& clusters = context.store.clusters;
     for (const ClusterSlot slot : slots) {
         unlink(tree.subtrees[clusters.region[slot.index]], clusters, slot);
         context.store.members.retire(clusters.slab[slot.index], context.frame);
         clusters.free_slot(slot);
     }
-    grouping.resize(total);
 }
 
 void form_groups(Grouping& grouping, const UpdateContext& context)

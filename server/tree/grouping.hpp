@@ -46,9 +46,12 @@ struct Grouping {
 };
 
 /// Members that clusters in `slots` hold, mapped out to the front of `grouping`, in order, with their pulls;
-/// the clusters end: taken off their pools, their slots freed and slabs retired.
+/// the clusters end.
 void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
               const UpdateContext& context);
+
+/// Ends clusters: takes them off their pools, frees their slots and retires their slabs.
+void end_clusters(SlodTree& tree, std::span<const ClusterSlot> slots, const UpdateContext& context);
 
 /// Divides each group into its number of clusters (0: none) and forms them; they inherit their members' mean
 /// pull.
