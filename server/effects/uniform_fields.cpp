@@ -5,11 +5,7 @@
 #include "core/portable_math.hpp"
 
 namespace slod {
-namespace {
-
-/// (h - (1 - exp(-k h)) / k) / k: how far a unit of constant acceleration carries in time h; h^2 / 2
-/// without drag.
-double fall(double drag, double time)
+double drag_fall(double drag, double time)
 {
     const double x = drag * time;
     if (std::abs(x) > 0.1)
@@ -23,8 +19,6 @@ double fall(double drag, double time)
     }
     return time * time * sum;
 }
-
-} // namespace
 
 UniformFields::UniformFields(const std::optional<UniformGravitySettings>& uniform_gravity,
                              const std::optional<LinearDragSettings>& linear_drag,
@@ -43,7 +37,7 @@ Propagator UniformFields::over(double time) const
     Propagator step;
     step.drift = drag_drift(drag, time);
     step.decay_minus_1 = drag == 0 ? 0.0 : portable_expm1(-drag * time);
-    const double carried = fall(drag, time);
+    const double carried = drag_fall(drag, time);
     step.shift = drag * carried * wind + carried * gravity;
     step.gain = -step.decay_minus_1 * wind + step.drift * gravity;
     return step;

@@ -19,8 +19,15 @@ struct UniformFields {
                   const std::optional<LinearDragSettings>& linear_drag,
                   const std::optional<UniformWindSettings>& uniform_wind);
 
+    /// Of what is at rest.
+    Vector3d acceleration() const { return gravity + drag * wind; }
+
     /// The exact flow over `time`.
     Propagator over(double time) const;
 };
+
+/// (h - (1 - exp(-k h)) / k) / k: how far a unit of constant acceleration carries in time h under drag k;
+/// h^2 / 2 without drag.
+double drag_fall(double drag, double time);
 
 } // namespace slod
