@@ -33,8 +33,10 @@ bool by_first_particle(const SlodTree& tree, const ClusterTable& clusters, std::
 
 } // namespace
 
-Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life)
-    : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), cohorts_(emitters_.size())
+Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life,
+                   const Colliders* colliders)
+    : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), colliders_(colliders),
+      cohorts_(emitters_.size())
 {}
 
 Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, bool kicked,
@@ -44,8 +46,8 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
     new_clusters_.clear();
     for (std::size_t emitter = 0; emitter < emitters_.size(); ++emitter) {
         newborns_.clear();
-        births.refused +=
-            emitters_[emitter].emit(context.frame, context.step, fields_, room - births.born, newborns_);
+        births.refused += emitters_[emitter].emit(context.frame, context.step, fields_, room - births.born,
+                                                  newborns_, colliders_);
         births.born += newborns_.size();
         const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
         if (joined < newborns_.size())

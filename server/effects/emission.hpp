@@ -16,8 +16,10 @@ namespace slod {
 /// velocity (O'Brien et al. 2001, section 5.1).
 class Emission {
 public:
-    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped.
-    Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life);
+    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped. `colliders`
+    /// (null: there are none) are the caller's and outlive this.
+    Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life,
+             const Colliders* colliders = nullptr);
 
     /// Newborns fly through other fields from here on.
     void set_fields(const UniformFields& fields) { fields_ = fields; }
@@ -52,6 +54,7 @@ private:
     std::vector<Emitter> emitters_;
     UniformFields fields_;
     double mid_life_;
+    const Colliders* colliders_;
     std::vector<ClusterId> cohorts_; ///< by emitter
     std::vector<Newborn> newborns_;
     std::vector<NewCluster> new_clusters_;

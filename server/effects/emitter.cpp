@@ -30,7 +30,7 @@ std::uint64_t Emitter::count_before(double time) const
 }
 
 std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
-                            std::vector<Newborn>& newborns) const
+                            std::vector<Newborn>& newborns, const Colliders* colliders) const
 {
     const double end = double(frame) * step;
     const std::uint64_t first = count_before(double(frame - 1) * step);
@@ -39,21 +39,27 @@ std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformField
     const std::size_t before = newborns.size();
     newborns.resize(before + count);
     for_each_block(count, 1024, [&](std::size_t begin, std::size_t last) {
-        for (std::size_t i = begin; i < last; ++i)
-            newborns[before + i] = newborn(first + i, end, step, fields);
+        for (std::size_t i = begin; i < last; ++i) {
+            Newborn& born = newborns[before + i];
+            born = newborn(first + i, end, step);
+            if (colliders != nullptr)
+                colliders->fly(born.particle.position, born.particle.velocity, born.age);
+            else
+                fields.over(born.age).apply(born.particle.position, born.particle.velocity);
+        }
     });
     std::erase_if(newborns, [&](const Newborn& born) { return born.particle.expiry_frame <= frame; });
     return started - count;
 }
 
-Newborn Emitter::newborn(std::uint64_t k, double end, double step, const UniformFields& fields) const
+/// As it is at its birth.
+Newborn Emitter::newborn(std::uint64_t k, double end, double step) const
 {
     const double start = settings_.start + double(k) / settings_.rate;
     Newborn born;
     born.age = std::max(end - start, 0.0);
     born.particle.position = settings_.position;
     born.particle.velocity = velocity_at_birth(k);
-    fields.over(born.age).apply(born.particle.position, born.particle.velocity);
     born.particle.id = (std::uint64_t{index_} + 1) << id_shift | k;
     born.particle.mass = float(settings_.particle_mass);
     born.particle.kind = kind_;

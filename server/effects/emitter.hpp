@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cluster/particles.hpp"
+#include "effects/colliders.hpp"
 #include "effects/settings.hpp"
 #include "effects/uniform_fields.hpp"
 
@@ -26,10 +27,10 @@ public:
     std::uint64_t count_before(double time) const;
 
     /// Appends the particles that start in frame `frame` (of length `step`, ending at frame * step), moved
-    /// to the frame's end in `fields`. Those whose lifetime ends within the frame are left out, and so are
-    /// all after the first `room`; returns how many these are.
+    /// to the frame's end in `fields`, among `colliders` if there are any. Those whose lifetime ends within
+    /// the frame are left out, and so are all after the first `room`; returns how many these are.
     std::uint64_t emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
-                       std::vector<Newborn>& newborns) const;
+                       std::vector<Newborn>& newborns, const Colliders* colliders = nullptr) const;
 
     const EmitterSettings& settings() const { return settings_; }
 
@@ -37,7 +38,7 @@ public:
     static constexpr int id_shift = 48;
 
 private:
-    Newborn newborn(std::uint64_t k, double end, double step, const UniformFields& fields) const;
+    Newborn newborn(std::uint64_t k, double end, double step) const;
     Vector3d velocity_at_birth(std::uint64_t k) const;
 
     EmitterSettings settings_;

@@ -45,6 +45,7 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"uniform_gravity", "The same acceleration for everything."}, simulation.uniform_gravity);
     visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);
     visit(Section{"uniform_wind", "Moving air; needs linear_drag."}, simulation.uniform_wind);
+    visit(Section{"collider", "Solids that particles bounce off."}, simulation.colliders);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
     visit(Section{"limits", "What the scene may grow to."}, simulation.limits);
 }

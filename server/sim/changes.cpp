@@ -136,6 +136,7 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("kind", wanted.kinds == present.kinds);
     fixed("motion", wanted.motion == present.motion);
     fixed("linear_drag", wanted.linear_drag == present.linear_drag);
+    fixed("collider", wanted.colliders == present.colliders);
     fixed("emitter", wanted.emitters == present.emitters);
     fixed("limits", wanted.limits == present.limits);
     fixed("background", wanted.background == present.background);
@@ -192,6 +193,8 @@ void Simulation::State::set_fields()
     fields = UniformFields(settings.uniform_gravity, settings.linear_drag, settings.uniform_wind);
     propagator = fields.over(settings.time.step);
     emission.set_fields(fields);
+    if (collisions)
+        collisions->set_fields(fields);
 }
 
 } // namespace slod

@@ -49,7 +49,8 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
         by_first(settings.background) ||
         std::any_of(settings.regions.begin(), settings.regions.end(),
                     [&](const RegionOfInterest& region) { return by_first(region.partition); });
-    plan.merging = !plan.unclustered && (motion == Motion::Rigid || !settings.regions.empty());
+    plan.merging = !plan.unclustered &&
+                   (motion == Motion::Rigid || !settings.regions.empty() || !settings.colliders.empty());
 }
 
 void decide_phases(Plan& plan, const SimulationSettings& settings)
@@ -113,6 +114,7 @@ Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial
                     {"uniform_gravity", settings.uniform_gravity.has_value(), "linear"},
                     {"linear_drag", settings.linear_drag.has_value(), "linear"},
                     {"uniform_wind", settings.uniform_wind.has_value(), "linear"},
+                    {"collider", !settings.colliders.empty(), "per member"},
                     {"emitter", !settings.emitters.empty(), "births"},
                     {"lifetime", plan.finite_lives, "deaths"}};
     return plan;

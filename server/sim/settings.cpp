@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/number_text.hpp"
+#include "effects/solid.hpp"
 
 namespace slod {
 
@@ -81,6 +82,17 @@ void check_emitter(const std::string& key, const EmitterSettings& emitter,
                         number_text(emitter.start) + "; use more than that, or leave the emitter out.");
 }
 
+void check_colliders(const std::vector<ColliderSettings>& colliders, Problems& found)
+{
+    check_names("collider", colliders, found);
+    if (colliders.size() > max_colliders)
+        found.push_back("collider appears " + std::to_string(colliders.size()) + " times; use at most " +
+                        std::to_string(max_colliders) + ".");
+    for (std::size_t i = 0; i < colliders.size(); ++i)
+        for (const std::string& problem : problems(colliders[i]))
+            found.push_back("collider." + std::to_string(i) + "." + problem);
+}
+
 void check_lives(const MotionSettings& motion, Problems& found)
 {
     const auto check = [&](const std::string& key, std::uint32_t frames) {
@@ -151,6 +163,7 @@ Problems problems(const SimulationSettings& settings)
     Problems found;
     check_units(settings.units, found);
     check_kinds(settings.kinds, found);
+    check_colliders(settings.colliders, found);
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);

@@ -9,6 +9,7 @@
 #include "cluster/motion.hpp"
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
+#include "effects/collider_settings.hpp"
 #include "effects/settings.hpp"
 #include "gravity/settings.hpp"
 #include "tree/region.hpp"
@@ -67,6 +68,7 @@ struct SimulationSettings {
     std::optional<UniformGravitySettings> uniform_gravity;
     std::optional<LinearDragSettings> linear_drag;
     std::optional<UniformWindSettings> uniform_wind;
+    std::vector<ColliderSettings> colliders;
     std::vector<EmitterSettings> emitters;
     LimitSettings limits;
 };

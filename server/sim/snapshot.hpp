@@ -8,13 +8,14 @@
 #include "cluster/conserved.hpp"
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
+#include "effects/collisions.hpp"
 #include "sim/phase.hpp"
 #include "tree/slod_tree.hpp"
 
 namespace slod {
 
 /// What happened in one frame, counted.
-struct FrameCounts : UpdateCounts {
+struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t particles = 0; ///< alive at the end of the frame
     std::uint64_t clusters = 0;
     std::uint64_t pools = 0;
@@ -34,10 +35,14 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 16> event_counts{{
+inline constexpr std::array<EventCount, 20> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
+    {"struck", &FrameCounts::struck},
+    {"taken_apart", &FrameCounts::taken_apart},
+    {"impacts", &FrameCounts::impacts},
+    {"impacts_cut_off", &FrameCounts::impacts_cut_off},
     {"due_pools", &FrameCounts::due_pools},
     {"reformed_members", &FrameCounts::reformed_members},
     {"strays_inserted", &FrameCounts::strays_inserted},

@@ -66,6 +66,17 @@ std::vector<Emitter> emitters_of(const SimulationSettings& settings)
     return emitters;
 }
 
+std::optional<Collisions> collisions_of(const SimulationSettings& settings, const Plan& plan,
+                                        const UniformFields& fields)
+{
+    if (settings.colliders.empty())
+        return {};
+    const Collisions::Rules rules{.carries_members = plan.map != MapKind::Identity,
+                                  .exact = plan.map_is_exact,
+                                  .full_map = plan.map == MapKind::Full};
+    return Collisions(settings.colliders, fields, settings.time.step, rules);
+}
+
 } // namespace
 
 Simulation::State::State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options)
@@ -76,7 +87,9 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       store(cluster_columns(plan, scene), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, scene.time.step)),
       tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(scene.motion, context()),
-      emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step),
+      collisions(collisions_of(scene, plan, fields)),
+      emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step,
+               collisions ? &collisions->colliders() : nullptr),
       particle_count(initial.size())
 {
     if (scene.gravity)
@@ -126,7 +139,9 @@ void Simulation::State::make_room()
 {
     // All pools may be due at once; splits and merges come one by one.
     const std::uint64_t moving = plan.clocked ? particle_count : particle_count / 8 + 4096;
-    store.members.reserve(moving + moving / 2, store.clusters.alive_count() / 2 + 1024);
+    const std::uint64_t struck = collisions ? collisions->expected_members(particle_count) : 0;
+    const std::uint64_t formed = moving + struck;
+    store.members.reserve(formed + formed / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
     for (Subtree& subtree : tree.subtrees)
         reserve(subtree, subtree.pool_count() / 2 + (subtree.region == background_row ? 256 : 32));
@@ -134,6 +149,8 @@ void Simulation::State::make_room()
         reforming.reserve(tree, moving);
     else
         regrouping.reserve(tree, moving);
+    if (collisions)
+        collisions->reserve(store.clusters, struck);
     if (plan.has(Phase::Moments)) {
         reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size(),
                 *settings.gravity);
@@ -159,19 +176,28 @@ void Simulation::State::close_kick()
 
 void Simulation::State::propagate()
 {
+    if (collisions)
+        collisions->fly_members(context());
     propagate_clusters(store.clusters, propagator);
+    if (collisions) {
+        snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts);
+        particle_count -= snapshot.counts.died;
+    }
 }
 
 void Simulation::State::emit()
 {
-    if (plan.finite_lives)
-        snapshot.counts.died = expiry.update(tree, context());
-    const std::uint64_t left = particle_count - snapshot.counts.died;
-    const std::uint64_t room = settings.limits.max_particles - std::min(settings.limits.max_particles, left);
+    if (plan.finite_lives) {
+        const std::uint64_t died = expiry.update(tree, context());
+        snapshot.counts.died += died;
+        particle_count -= died;
+    }
+    const std::uint64_t room =
+        settings.limits.max_particles - std::min(settings.limits.max_particles, particle_count);
     const Emission::Births births = emission.update(tree, context(), plan.has(Phase::CloseKick), room);
     snapshot.counts.born = births.born;
     snapshot.counts.births_refused = births.refused;
-    particle_count += snapshot.counts.born - snapshot.counts.died;
+    particle_count += snapshot.counts.born;
     make_room(); // for the newborn
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cluster/forming.hpp"
+#include "effects/collisions.hpp"
 #include "effects/emission.hpp"
 #include "gravity/force_view.hpp"
 #include "gravity/forces.hpp"
@@ -71,6 +72,7 @@ struct Simulation::State {
     Reforming reforming;
     Regrouping regrouping;
     Expiry expiry;
+    std::optional<Collisions> collisions; ///< where there are colliders
     Emission emission;
     ForceView view;
     ForceLists force_lists;

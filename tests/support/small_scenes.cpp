@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "support/random_draws.hpp"
+#include "support/solids.hpp"
 
 namespace slod::test {
 namespace {
@@ -83,6 +84,38 @@ SmallScene mixture()
     return scene;
 }
 
+/// A floor, a ball in the first jet's way, a block in the second's, and two balls that touch right above the
+/// third one, whose particles are turned back and forth between them.
+void add_colliders(SimulationSettings& settings)
+{
+    const double r = 0.3;
+    settings.colliders = {with(plane({0, 0, -0.25}, {0.1, 0, 1}), 0.3, 0.5),
+                          with(sphere({0.1, 0, 0.7}, r), 0.8, 0.1),
+                          with(box({1.2, 0, 0.6}, {0.2, 0.5, 0.1}), 0.5, 0),
+                          with(sphere({-1 - r, 0, 0.4}, r), 1, 0), with(sphere({-1 + r, 0, 0.4}, r), 1, 0)};
+    for (std::size_t i = 0; i < settings.colliders.size(); ++i)
+        settings.colliders[i].name = "collider" + std::to_string(i);
+}
+
+/// A fountain among colliders, and what comes to rest on the floor.
+SmallScene obstacles(const std::string& name, Motion motion)
+{
+    SmallScene scene = fountain(name, motion);
+    add_colliders(scene.settings);
+    add_cloud(scene.initial, {.count = 200, .mass = 1e-3, .scale = 0.02}, 3);
+    return scene;
+}
+
+/// Two clouds that attract each other across a ball between them, a cone and a rod.
+SmallScene attracted_obstacles()
+{
+    SmallScene scene = clouds("attracted_obstacles", Motion::Flow, 16, 500);
+    scene.settings.colliders = {with(sphere({0.2, 0, 0}, 0.5), 0.5, 0.2),
+                                with(cone({-1.5, 0.3, 0.4}, {0, 0.1, -0.5}, 0.3), 0.9, 0),
+                                with(capsule({1, -1, 0}, {1, 1, 0.3}, 0.2), 0, 0)};
+    return scene;
+}
+
 } // namespace
 
 void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
@@ -150,6 +183,9 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(fountain("rigid_fountain", Motion::Rigid));
     scenes.push_back(fountain_of_regions());
     scenes.push_back(mixture());
+    scenes.push_back(obstacles("obstacles", Motion::Flow));
+    scenes.push_back(obstacles("rigid_obstacles", Motion::Rigid));
+    scenes.push_back(attracted_obstacles());
     return scenes;
 }
 

@@ -37,8 +37,8 @@ struct SmallScene {
 };
 
 /// One scene for every road through the step: motion flow, stream and rigid in self-gravity, unclustered,
-/// in double, by walks of the tree, a fountain, one with regions of interest, and one of two kinds falling
-/// onto attracting clouds.
+/// in double, by walks of the tree, a fountain, one with regions of interest, one of two kinds falling
+/// onto attracting clouds, and three among colliders.
 std::vector<SmallScene> small_scenes();
 
 /// The one of that name.

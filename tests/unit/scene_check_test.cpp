@@ -86,6 +86,18 @@ TEST(SimulationSettings, RefuseANameTwice)
     EXPECT_TRUE(one_says(found, {"emitter.1.name = \"a\" is the name of emitter.0 too"}));
 }
 
+TEST(SimulationSettings, F25_RefuseADegenerateCollider)
+{
+    SimulationSettings settings = sound();
+    settings.colliders = {{.name = "ball", .shape = ColliderShape::Sphere},
+                          {.name = "floor", .normal = {0, 0, 0}}};
+    EXPECT_TRUE(only_says(problems(settings), {"collider.1.normal = [0, 0, 0] has no direction"}));
+    settings.colliders[1] = {.name = "ball"};
+    EXPECT_TRUE(only_says(problems(settings), {"collider.1.name = \"ball\" is the name of collider.0 too"}));
+    settings.colliders.resize(max_colliders + 1, {.name = "wall"});
+    EXPECT_TRUE(one_says(problems(settings), {"collider appears 257 times; use at most 256."}));
+}
+
 TEST(SimulationSettings, RefuseAnEmitterOfAnUnknownKind)
 {
     SimulationSettings settings = sound();

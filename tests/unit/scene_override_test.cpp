@@ -9,7 +9,9 @@ namespace {
 
 const std::string two_of_each = minimal_scene + "[[kind]]\nname = \"dust\"\n"
                                                 "[[emitter]]\nname = \"a\"\nkind = \"star\"\n"
-                                                "[[emitter]]\nname = \"b\"\nkind = \"dust\"\n";
+                                                "[[emitter]]\nname = \"b\"\nkind = \"dust\"\n"
+                                                "[[collider]]\nname = \"floor\"\n"
+                                                "[[collider]]\nname = \"ball\"\nshape = \"sphere\"\n";
 
 TEST(SceneOverride, ReplacesWhatTheFileSays)
 {

@@ -148,6 +148,12 @@ Scene random_scene(std::uint64_t seed)
         emitter.direction.x() = emitter.direction.y() = -0.0;
         put_in_order(emitter.start, emitter.stop);
     }
+    for (ColliderSettings& collider : simulation.colliders) {
+        collider.normal = {0, -0.0, 1};
+        collider.radius += 1;
+        collider.half_extent.array() += 1;
+        collider.axis = {0, 1e-30, -2};
+    }
     simulation.sharing.overlap = true;
     for (RegionOfInterest& region : simulation.regions) {
         region.direction = {0, 0.5, -1};
@@ -303,6 +309,7 @@ TEST(SceneReference, HasEveryKeyWithUnitDefaultRangeAndHelp)
 
     Scene scene;
     scene.simulation.kinds.resize(1);
+    scene.simulation.colliders.resize(1);
     scene.simulation.emitters.resize(1);
     scene.simulation.regions.resize(1);
     scene.simulation.gravity.emplace();

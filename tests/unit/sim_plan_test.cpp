@@ -10,6 +10,7 @@
 
 #include "sim/simulation.hpp"
 #include "support/small_scenes.hpp"
+#include "support/solids.hpp"
 
 // What a scene comes down to: nothing runs and nothing is kept that the scene does not call for.
 namespace slod::test {
@@ -23,7 +24,8 @@ const Names attracted{"commands", "open_kick", "propagate",  "update",
                       "moments",  "forces",    "close_kick", "snapshot"};
 const Names all_phases{"commands", "open_kick", "propagate",  "emit",    "update",
                        "moments",  "forces",    "close_kick", "snapshot"};
-const Names all_effects{"gravity", "uniform_gravity", "linear_drag", "uniform_wind", "emitter", "lifetime"};
+const Names all_effects{"gravity",  "uniform_gravity", "linear_drag", "uniform_wind",
+                        "collider", "emitter",         "lifetime"};
 
 /// A scene by what it has besides four particles of one kind and mass in clusters of flow motion, and what
 /// its plan has to be. Columns are those besides the ones that every scene has.
@@ -63,6 +65,11 @@ void emit_immortals(SmallScene& scene)
 {
     emit(scene);
     scene.settings.emitters.front().lifetime = INFINITY;
+}
+
+void obstruct(SmallScene& scene)
+{
+    scene.settings.colliders = {plane({0, 0, -1}, {0, 0, 1})};
 }
 
 void add_kind(SmallScene& scene)
@@ -106,6 +113,7 @@ std::vector<PlannedScene> scenes_of_motion()
          .exact = false,
          .merging = true},
         {.name = "wind", .choose = blow, .effects = {"uniform_gravity", "linear_drag", "uniform_wind"}},
+        {.name = "colliders", .choose = obstruct, .effects = {"collider"}, .merging = true},
         {.name = "self_gravity",
          .choose = attract,
          .phases = attracted,
@@ -169,12 +177,13 @@ std::vector<PlannedScene> scenes_of_particles()
          .cluster_columns = {"moments by number"}},
         {.name = "massless", .choose = take_masses, .cluster_columns = {"moments by number"}},
         {.name = "everything",
-         .choose = all<attract, blow, emit, add_kind, take_masses>,
+         .choose = all<attract, blow, obstruct, emit, add_kind, take_masses>,
          .phases = all_phases,
          .effects = all_effects,
          .map = MapKind::Full,
          .exact = false,
          .clocked = true,
+         .merging = true,
          .member_columns = {"mass", "kind", "expiry frame"},
          .cluster_columns = {"flow map and closure", "moments by number", "next expiry",
                              "acceleration and variance", "tidal tensor"}},

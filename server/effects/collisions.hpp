@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "effects/colliders.hpp"
+#include "tree/grouping.hpp"
+#include "tree/slod_tree.hpp"
+
+namespace slod {
+
+/// What collisions came to in one frame.
+struct CollisionCounts {
+    std::uint64_t struck = 0;          ///< clusters whose bound may have touched a collider
+    std::uint64_t taken_apart = 0;     ///< those that ended, and whose members were formed anew
+    std::uint64_t impacts = 0;         ///< of particles
+    std::uint64_t impacts_cut_off = 0; ///< particles that rest, having met too many surfaces
+};
+
+/// Clusters among colliders. One whose bound may touch a collider on its way through the frame is mapped out
+/// before it moves, and its members fly by themselves, from impact to impact (O'Brien et al. 2001, section
+/// 5.1). Then it goes on as it is if none of them touched anything, or if all are where they were; else it is
+/// taken apart and its members are formed into clusters anew.
+class Collisions {
+public:
+    /// What a cluster's map says of its members.
+    struct Rules {
+        bool carries_members = false; ///< they move as they would by themselves
+        bool exact = false;           ///< wherever they go
+        bool full_map = false;
+    };
+
+    Collisions(const std::vector<ColliderSettings>& settings, const UniformFields& fields, double step,
+               const Rules& rules)
+        : colliders_(settings, fields, step), rules_(rules)
+    {}
+
+    const Colliders& colliders() const { return colliders_; }
+    void set_fields(const UniformFields& fields) { colliders_.set_fields(fields); }
+
+    /// Members that may be struck in the next frame, of so many particles: twice as many as in the last one,
+    /// and 65,536 more. Should there be even more at once, memory for them is taken in that frame.
+    std::size_t expected_members(std::size_t particle_count) const
+    {
+        return std::min(particle_count, 2 * members_.size() + 65'536);
+    }
+
+    /// Provides memory for so many members, in the clusters there is room for.
+    void reserve(const ClusterTable& clusters, std::size_t member_count);
+
+    /// Before the clusters move through frame `context.frame`: finds those that are struck, and lets their
+    /// members fly.
+    void fly_members(const UpdateContext& context);
+
+    /// After they have moved: gives the struck ones their members' outcome, the new ones places in the tree.
+    /// Particles that are taken apart and whose time has come are left out; returns how many.
+    std::uint64_t put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts);
+
+private:
+    /// A cluster that is struck, where it was, and how its members fared.
+    struct Struck {
+        ClusterSlot slot;
+        std::uint32_t first, count; ///< in `members_`
+        Vector3d position, velocity;
+        bool touched = false; ///< any of them
+        bool moved = false;   ///< any of them
+        std::uint64_t impacts = 0, cut_off = 0;
+    };
+
+    bool may_be_struck(const UpdateContext& context, std::size_t slot) const;
+    void fly(const UpdateContext& context, Struck& struck);
+    bool keep(ClusterTable& clusters, const Struck& struck) const;
+    void gather(const ClusterTable& clusters, const Struck& struck, std::uint64_t frame);
+    void add_group(const ClusterTable& clusters, const Struck& struck, std::uint32_t first);
+
+    Colliders colliders_;
+    Rules rules_;
+    std::vector<std::uint8_t> marks_;    ///< by slot: struck
+    std::vector<Struck> struck_;         ///< in order of slots
+    std::vector<Particle> members_;      ///< of the struck, mapped out
+    std::vector<std::uint8_t> touching_; ///< by member
+    std::vector<ClusterSlot> ending_;
+    Grouping grouping_;
+    std::uint64_t expired_ = 0;
+};
+
+} // namespace slod

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/vectors.hpp"
+
+namespace slod {
+
+/// A collider that a particle touches.
+struct Contact {
+    std::uint32_t collider;
+    Vector3d normal; ///< away from the solid
+    double restitution, friction;
+    bool holds = false; ///< the particle stays on it
+};
+
+/// Colliders that one particle touches at a time; those beyond the bound are met in the next moment.
+class Contacts {
+public:
+    static constexpr std::size_t most = 8;
+
+    void clear() { count_ = 0; }
+    void add(const Contact& contact)
+    {
+        if (count_ < most)
+            all_[count_++] = contact;
+    }
+    std::span<Contact> all() { return std::span(all_).first(count_); }
+    std::span<const Contact> all() const { return std::span(all_).first(count_); }
+    const Contact* find(std::uint32_t collider) const; ///< null when it is not touched
+
+private:
+    std::array<Contact, most> all_;
+    std::size_t count_ = 0;
+};
+
+/// An impact, when the particle approaches: the normal velocity is turned round and shrunk by the
+/// restitution, or to 0 when no more than `rest_speed` would be left; the tangential one is slowed by the
+/// impulse of Coulomb friction, until it stops. Returns whether it was more than the end of a rest.
+bool bounce(const Contact& contact, double rest_speed, Vector3d& velocity);
+
+/// What holds a particle on the surfaces that it touches slower than it could leave them.
+struct Hold {
+    Vector3d velocity, acceleration; ///< along the surfaces
+    double pressing = 0;             ///< acceleration that they take up
+    double friction = 0;             ///< the largest of theirs
+};
+
+/// The acceleration nearest to `acceleration` that leads into none of the contacts whose normal speed is at
+/// most its `rest_speed`; those that it needs for that hold, and the velocity keeps to them.
+Hold hold(std::span<Contact> contacts, std::span<const double> rest_speed, const Vector3d& velocity,
+          const Vector3d& acceleration);
+
+} // namespace slod

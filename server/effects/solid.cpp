@@ -1,0 +1,52 @@
+#include "effects/solid.hpp"
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+namespace slod {
+namespace {
+
+/// In the order of ColliderShape.
+constexpr std::array kinds{&plane_kind, &sphere_kind, &box_kind, &cone_kind, &capsule_kind};
+static_assert(kinds.size() == names(ColliderShape{}).size());
+
+} // namespace
+
+Problems problems(const ColliderSettings& settings)
+{
+    return kinds[std::size_t(settings.shape)]->problems(settings);
+}
+
+std::unique_ptr<Solid> make_solid(const ColliderSettings& settings)
+{
+    return kinds[std::size_t(settings.shape)]->make(settings);
+}
+
+Box box_around(const Vector3d& a, const Vector3d& b, double reach)
+{
+    return {a.cwiseMin(b).array() - reach, a.cwiseMax(b).array() + reach};
+}
+
+Problems radius_problems(const ColliderSettings& settings)
+{
+    if (settings.radius > 0)
+        return {};
+    return {"radius = 0 leaves nothing solid; use more than 0."};
+}
+
+Problems axis_problems(const ColliderSettings& settings)
+{
+    if (settings.axis.squaredNorm() > 0)
+        return {};
+    return {"axis = [0, 0, 0] has no direction; give it with its length, such as [0, 0, -1]."};
+}
+
+Vector3d across(const Vector3d& axis)
+{
+    int flattest = 0;
+    axis.cwiseAbs().minCoeff(&flattest);
+    return axis.cross(Vector3d(Vector3d::Unit(flattest))).normalized();
+}
+
+} // namespace slod

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+
+#include "core/settings.hpp"
+#include "core/vectors.hpp"
+#include "effects/collider_settings.hpp"
+#include "tree/box.hpp"
+
+namespace slod {
+
+/// Where a solid's surface is, as seen from some point.
+struct Surface {
+    double distance; ///< to its nearest point, exact; below 0 inside, where it is the way out
+    Vector3d normal; ///< unit vector in which the distance grows fastest; one of them where there are several
+};
+
+/// A convex solid. A new one takes a file of its own with its SolidKind, and a line in solid.cpp.
+class Solid {
+public:
+    virtual ~Solid() = default;
+
+    virtual Surface surface(const Vector3d& x) const = 0;
+
+    /// A box that holds it; infinite where it is.
+    virtual Box bounds() const = 0;
+};
+
+/// How solids of one shape come about.
+struct SolidKind {
+    /// What is wrong with the settings of its shape, each with the key in front.
+    Problems (*problems)(const ColliderSettings& settings);
+    std::unique_ptr<Solid> (*make)(const ColliderSettings& settings);
+};
+
+extern const SolidKind plane_kind, sphere_kind, box_kind, cone_kind, capsule_kind;
+
+/// What is wrong with a collider's geometry, each with the key in front; empty when nothing is.
+Problems problems(const ColliderSettings& settings);
+
+/// The solid of settings without problems.
+std::unique_ptr<Solid> make_solid(const ColliderSettings& settings);
+
+/// A box around both points and all within `reach` of them.
+Box box_around(const Vector3d& a, const Vector3d& b, double reach);
+
+// Sentences that several shapes need.
+Problems radius_problems(const ColliderSettings& settings);
+Problems axis_problems(const ColliderSettings& settings);
+
+/// A unit vector across `axis`, always the same one.
+Vector3d across(const Vector3d& axis);
+
+} // namespace slod

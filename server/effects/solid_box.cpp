@@ -1,0 +1,58 @@
+#include <cmath>
+
+#include "core/number_text.hpp"
+#include "effects/solid.hpp"
+
+namespace slod {
+namespace {
+
+class Block final : public Solid {
+public:
+    explicit Block(const ColliderSettings& settings)
+        : centre_(settings.position), half_extent_(settings.half_extent)
+    {}
+
+    Surface surface(const Vector3d& x) const override
+    {
+        const Vector3d away = x - centre_;
+        const Vector3d beyond = away.cwiseAbs() - half_extent_; // of each pair of faces
+        const Vector3d outside = beyond.cwiseMax(0.0);
+        const double distance = outside.norm();
+        if (distance > 0)
+            return {distance, signed_as(away, outside / distance)};
+        int face = 0;
+        const double depth = beyond.maxCoeff(&face);
+        return {depth, signed_as(away, Vector3d::Unit(face))};
+    }
+
+    Box bounds() const override { return {centre_ - half_extent_, centre_ + half_extent_}; }
+
+private:
+    static Vector3d signed_as(const Vector3d& signs, const Vector3d& sizes)
+    {
+        return {std::copysign(sizes.x(), signs.x()), std::copysign(sizes.y(), signs.y()),
+                std::copysign(sizes.z(), signs.z())};
+    }
+
+    Vector3d centre_, half_extent_;
+};
+
+Problems box_problems(const ColliderSettings& settings)
+{
+    const Vector3d& half = settings.half_extent;
+    if ((half.array() > 0).all())
+        return {};
+    return {"half_extent = [" + number_text(half.x()) + ", " + number_text(half.y()) + ", " +
+            number_text(half.z()) + "] leaves nothing solid; use more than 0 for each."};
+}
+
+std::unique_ptr<Solid> make_box(const ColliderSettings& settings)
+{
+    return std::make_unique<Block>(settings);
+}
+
+} // namespace
+
+const SolidKind box_kind{box_problems, make_box};
+
+} // namespace slod

@@ -1,0 +1,352 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "effects/colliders.hpp"
+#include "support/random_draws.hpp"
+#include "support/solids.hpp"
+
+// How a single particle fares among colliders.
+namespace slod::test {
+namespace {
+
+constexpr double frame = 1.0 / 60;
+constexpr double fall = 9.81;
+
+UniformFields falling()
+{
+    UniformFields fields;
+    fields.gravity = {0, 0, -fall};
+    return fields;
+}
+
+struct State {
+    Vector3d position, velocity;
+};
+
+/// Where a particle is after so many frames.
+State flown(const Colliders& colliders, State state, int frames = 1, double step = frame)
+{
+    for (int i = 0; i < frames; ++i)
+        colliders.fly(state.position, state.velocity, step);
+    return state;
+}
+
+double energy(const State& state)
+{
+    return 0.5 * state.velocity.squaredNorm() + fall * state.position.z();
+}
+
+class Tunnelling : public testing::TestWithParam<ColliderSettings> {};
+
+std::string name_of(const testing::TestParamInfo<ColliderSettings>& info)
+{
+    return info.param.name;
+}
+
+// Each is aimed at a point inside, as far beyond it as it starts before, and would be there in one frame.
+TEST_P(Tunnelling, F10_IsDoneByNoneOfAMillionFastParticles)
+{
+    const Colliders colliders({GetParam()}, {}, frame);
+    const std::unique_ptr<Solid> solid = make_solid(GetParam());
+    Random random(10, 0, 0);
+    const auto place = [&](double size) -> Vector3d { return size * random_direction(random); };
+    int through = 0, inside = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        Vector3d aim = place(2 * random.uniform()), start = place(200);
+        while (solid->surface(aim).distance > -1e-3)
+            aim = place(2 * random.uniform());
+        while (solid->surface(start).distance < 0)
+            start = place(200);
+        Vector3d velocity = 2 * (aim - start) / frame;
+        const auto met = colliders.fly(start, velocity, frame);
+        through += met.impacts == 0 ? 1 : 0;
+        inside += solid->surface(start).distance < -1e-11 ? 1 : 0; // 200 times some fifty roundings
+    }
+    EXPECT_EQ(through, 0);
+    EXPECT_EQ(inside, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Tunnelling, testing::ValuesIn(one_of_each()), name_of);
+
+TEST(Colliders, F10_StopFastParticlesWithThinWalls)
+{
+    struct Case {
+        double speed, thickness;
+    };
+    UniformFields windy = falling();
+    windy.drag = 0.3;
+    windy.wind = {3, 2, -1};
+    for (const UniformFields& fields : {UniformFields(), falling(), windy}) {
+        for (const Case& wall : {Case{200, 0.1}, Case{1e4, 1e-3}}) {
+            const Colliders colliders({box({0, 0, 0}, {1e6, 1e6, 0.5 * wall.thickness})}, fields, frame);
+            Random random(11, 0, 0);
+            for (int i = 0; i < 20'000; ++i) {
+                State state{{0, 0, 0.5 * wall.thickness + 3 * random.uniform()},
+                            wall.speed * random_direction(random)};
+                state = flown(colliders, state, 4);
+                ASSERT_GT(state.position.z(), 0) << "particle " << i << " at speed " << wall.speed;
+            }
+        }
+    }
+}
+
+TEST(Colliders, F11_HaveOneOutcomeForAGrazingHit)
+{
+    const Colliders floor({with(plane({0, 0, 0}, {0, 0, 1}), 0.5, 0)}, {}, frame);
+    const double angle = 1e-6;
+    const State grazed = flown(floor, {{0, 0, 0.5 * angle}, {1 / frame, 0, -angle / frame}});
+    EXPECT_NEAR(grazed.position.x(), 1, 1e-15);
+    EXPECT_NEAR(grazed.position.z(), 0.25 * angle, 1e-18); // half the way back at half the speed
+    EXPECT_NEAR(grazed.velocity.z(), 0.5 * angle / frame, 1e-18);
+
+    // Past a sphere at its radius, more or less: within rounding either is right, and nothing else.
+    for (const double off : {-1e-15, 0.0, 1e-15}) {
+        const Colliders ball({with(sphere({0, 0, 0}, 1), 1, 0)}, {}, frame);
+        State state{{-2, 1 + off, 0}, {4 / frame, 0, 0}};
+        const auto met = ball.fly(state.position, state.velocity, frame);
+        EXPECT_LE(met.impacts, 1U);
+        EXPECT_FALSE(met.cut_off);
+        EXPECT_LE((state.position - Vector3d(2, 1, 0)).norm(), 1e-6); // an angle of sqrt(1e-15), turned twice
+    }
+}
+
+TEST(Colliders, F11_HaveOneOutcomeForAnExactEdgeOrCorner)
+{
+    const Colliders block({with(box({0, 0, 0}, {1, 1, 1}), 1, 0)}, {}, frame);
+    for (const Vector3d& corner : {Vector3d(1, 0, 1), Vector3d(1, 1, 1), Vector3d(-1, 1, -1)}) {
+        for (const Vector3d& from :
+             {Vector3d(0, 0, corner.z()), Vector3d(corner.x(), 0, corner.z()), corner}) {
+            State state{corner + from, -2 * from / frame};
+            const auto met = block.fly(state.position, state.velocity, frame);
+            EXPECT_LE(met.impacts, 1U)
+                << corner.transpose() << " from " << from.transpose(); // 0: along a face
+            EXPECT_TRUE(state.position.allFinite());
+            EXPECT_GE(make_solid(box({0, 0, 0}, {1, 1, 1}))->surface(state.position).distance, -1e-14);
+            EXPECT_NEAR(state.velocity.norm(), 2 * from.norm() / frame, 1e-12);
+        }
+    }
+}
+
+TEST(Colliders, F12_LetABallBounceToItsHeightAgain)
+{
+    const Colliders floor({with(plane({0, 0, 0}, {0, 0, 1}), 1, 0)}, falling(), frame);
+    State ball{{0.3, 0, 1}, {0.1, 0, 0}};
+    const double there_and_back = 2 * std::sqrt(2 / fall);
+    const int frames = 60;
+    for (int i = 0; i < frames; ++i)
+        floor.fly(ball.position, ball.velocity, there_and_back / frames);
+    EXPECT_NEAR(ball.position.z(), 1, 1e-5);
+    EXPECT_NEAR(ball.position.x(), 0.3 + 0.1 * there_and_back, 1e-12);
+}
+
+TEST(Colliders, F13_KeepTheSquareOfTheRestitutionOfTheEnergy)
+{
+    for (const double restitution : {0.0, 0.5, 0.9, 1.0}) {
+        const Colliders floor({with(plane({0, 0, 0}, {0, 0, 1}), restitution, 0)}, {}, frame);
+        const State ball = flown(floor, {{0, 0, 0.01}, {0, 0, -1}});
+        EXPECT_NEAR(ball.velocity.squaredNorm(), restitution * restitution, 1e-15);
+        EXPECT_NEAR(ball.position.z(), restitution * (frame - 0.01), 1e-15);
+    }
+    // Twice in one frame, as the second floor is met on the way up: 0.9^4, in the exact time.
+    const Colliders gap(
+        {with(plane({0, 0, 0}, {0, 0, 1}), 0.9, 0), with(plane({0, 0, 1}, {0, 0, -1}), 0.9, 0)}, {}, 1);
+    const State ball = flown(gap, {{0, 0, 0.5}, {0, 0, -1}}, 1, 2);
+    const double left = 2 - 0.5 - 1 / 0.9;
+    EXPECT_NEAR(ball.velocity.z(), -0.81, 1e-15);
+    EXPECT_NEAR(ball.position.z(), 1 - 0.81 * left, 1e-14);
+}
+
+TEST(Colliders, F14_StopTheNormalVelocityAlone)
+{
+    for (const Vector3d& normal : {Vector3d(0, 0, 1), Vector3d(1, 2, 3)}) {
+        const Vector3d n = normal.normalized();
+        const Vector3d along = n.cross(Vector3d(0, 1, 0)).normalized();
+        const Colliders wall({with(plane({0, 0, 0}, normal), 0, 0)}, {}, frame);
+        const State state = flown(wall, {0.01 * n, 3 * along - 2 * n}, 20);
+        EXPECT_NEAR(n.dot(state.velocity), 0, n.z() == 1 ? 0 : 1e-15);
+        EXPECT_NEAR(along.dot(state.velocity), 3, 1e-12);
+        EXPECT_NEAR(n.dot(state.position), 0, 1e-14);
+        EXPECT_NEAR(along.dot(state.position), 20 * frame * 3, 1e-12);
+    }
+}
+
+TEST(Colliders, GiveTheFrictionOfTheImpulseToTheVelocityAlongTheSurface)
+{
+    const auto after = [](double slip, double friction) {
+        const Colliders floor({with(plane({0, 0, 0}, {0, 0, 1}), 0.5, friction)}, {}, frame);
+        return flown(floor, {{0, 0, 0.01}, {slip, 0, -2}}).velocity;
+    };
+    EXPECT_NEAR(after(10, 0.2).x(), 10 - 0.2 * (2 + 1), 1e-14); // mu (1 + e) of the speed of approach
+    EXPECT_NEAR(after(-10, 0.2).x(), -10 + 0.6, 1e-14);
+    EXPECT_EQ(after(0.5, 0.2).x(), 0) << "it stops and is not turned round";
+    EXPECT_NEAR(after(0.5, 0.2).z(), 1, 1e-15);
+}
+
+TEST(Colliders, F18_SendWhatFallsOnAConeToAllSidesAlike)
+{
+    const Colliders colliders({with(cone({0, 0, 0}, {0, 0, -1}, 1), 1, 0)}, falling(), frame);
+    const State centred = flown(colliders, {{0, 0, 0.05}, {0, 0, -4}});
+    EXPECT_EQ(centred.position.x(), 0);
+    EXPECT_EQ(centred.position.y(), 0);
+    EXPECT_GT(centred.velocity.z(), 0) << "it bounces off the apex as off a floor";
+
+    constexpr int count = 10'000, sectors = 20;
+    std::array<int, sectors> hits{};
+    for (int i = 0; i < count; ++i) {
+        Random random(18, 0, std::uint64_t(i));
+        const auto [x, y] = random_point_in_disc(random);
+        const State state = flown(colliders, {{1e-3 * x, 1e-3 * y, 0.05}, {0, 0, -4}});
+        ASSERT_TRUE(state.position.allFinite());
+        const double turn = std::atan2(state.velocity.y(), state.velocity.x()) / (2 * M_PI) + 0.5;
+        ++hits[std::min(std::size_t(turn * sectors), std::size_t(sectors - 1))];
+    }
+    double chi_squared = 0;
+    for (const int hit : hits)
+        chi_squared += (hit - double(count) / sectors) * (hit - double(count) / sectors) * sectors / count;
+    EXPECT_LT(chi_squared, 36.2); // p = 0.01 at 19 degrees of freedom
+}
+
+/// Three planes, as the walls and floor of a room with right angles.
+std::vector<ColliderSettings> corner(double restitution)
+{
+    return {with(plane({0, 0, 0}, {1, 0, 0}), restitution, 0),
+            with(plane({0, 0, 0}, {0, 1, 0}), restitution, 0),
+            with(plane({0, 0, 0}, {0, 0, 1}), restitution, 0)};
+}
+
+TEST(Colliders, F19_KeepParticlesInACorner)
+{
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+        const Colliders colliders(corner(restitution), falling(), frame);
+        Random random(19, 0, 0);
+        for (int i = 0; i < 1000; ++i) {
+            State state{random_direction(random).cwiseAbs(), -10 * random_direction(random).cwiseAbs()};
+            for (int step = 0; step < 60; ++step) {
+                const double before = energy(state);
+                const auto met = colliders.fly(state.position, state.velocity, frame);
+                ASSERT_LE(met.impacts, Colliders::most_meetings);
+                ASSERT_GE(state.position.minCoeff(), -1e-13);
+                ASSERT_LE(energy(state), before + 1e-12 * (1 + before));
+            }
+        }
+    }
+}
+
+// Thrown into the edge, where it is turned back and forth faster and faster.
+TEST(Colliders, F19_KeepParticlesInAWedgeOfADegree)
+{
+    const double angle = M_PI / 180;
+    for (const double restitution : {0.0, 0.9, 1.0}) {
+        const Colliders colliders(
+            {with(plane({0, 0, 0}, {0, 0, 1}), restitution, 0),
+             with(plane({0, 0, 0}, {std::sin(angle), 0, -std::cos(angle)}), restitution, 0)},
+            falling(), frame);
+        State state{{1, 0, 0.01}, {-30, 0, -1}};
+        for (int step = 0; step < 600; ++step) {
+            const double before = energy(state);
+            colliders.fly(state.position, state.velocity, frame);
+            ASSERT_TRUE(state.position.allFinite());
+            ASSERT_GE(state.position.z(), -1e-12) << "frame " << step;
+            ASSERT_GE(std::sin(angle) * state.position.x() - std::cos(angle) * state.position.z(), -1e-12);
+            ASSERT_LE(energy(state), before + 1e-12 * (1 + std::abs(before))) << "frame " << step;
+        }
+    }
+}
+
+// Two slopes that lean against each other carry a particle between them, in any order and however steep.
+TEST(Colliders, F19_LetParticlesRestInAValley)
+{
+    for (const double steepness : {0.5, 1.0, 10.0}) {
+        const Colliders valley({with(plane({0, 0, 0}, {steepness, 0, 1}), 0.3, 0),
+                                with(plane({0, 0, 0}, {-steepness, 0, 1}), 0.3, 0)},
+                               falling(), frame);
+        const State state = flown(valley, {{0.01, 0, 0.2}, {0, 0, 0}}, 1200);
+        EXPECT_LE(state.velocity.norm(), 1e-6) << steepness;
+        EXPECT_LE(std::abs(state.position.z()), 1e-4 * (1 + steepness)) << steepness;
+    }
+}
+
+TEST(Colliders, F20_PutWhatStartsInsideOntoTheSurfaceWithoutSpeed)
+{
+    for (const ColliderSettings& collider : one_of_each()) {
+        const Colliders colliders({collider}, {}, frame);
+        const std::unique_ptr<Solid> solid = make_solid(collider);
+        Random random(20, 0, 0);
+        for (int i = 0; i < 1000; ++i) {
+            State state{2 * random.uniform() * random_direction(random), {0, 0, 0}};
+            if (solid->surface(state.position).distance >= 0)
+                continue;
+            state = flown(colliders, state);
+            ASSERT_NEAR(solid->surface(state.position).distance, 0, 1e-14) << collider.name;
+            ASSERT_EQ(state.velocity, Vector3d(0, 0, 0)) << collider.name;
+        }
+    }
+}
+
+TEST(Colliders, F24_OrderTwoEventsInAStepByTime)
+{
+    std::vector<ColliderSettings> room = corner(1);
+    for (const bool swapped : {false, true}) {
+        if (swapped)
+            std::reverse(room.begin(), room.end());
+        const Colliders colliders(room, {}, 1);
+        // At the wall after 0.25, at the floor after 0.5 of a unit of time, and in the edge after half of
+        // one.
+        const State late = flown(colliders, {{0.25, 1, 0.5}, {-1, 0, -1}}, 1, 1);
+        EXPECT_LE((late.position - Vector3d(0.75, 1, 0.5)).norm(), 1e-15);
+        const State both = flown(colliders, {{0.5, 1, 0.5}, {-1, 0, -1}}, 1, 1);
+        EXPECT_LE((both.position - Vector3d(0.5, 1, 0.5)).norm(), 1e-15);
+        EXPECT_EQ(both.velocity, Vector3d(1, 0, 1));
+    }
+    const Colliders fallen(corner(1), falling(), 1);
+    State state{{0.3, 0.2, 0.4}, {-1.3, -0.7, -0.9}};
+    const double before = energy(state);
+    for (int step = 0; step < 100; ++step)
+        fallen.fly(state.position, state.velocity, 0.5);
+    EXPECT_NEAR(energy(state), before, 1e-9 * before);
+}
+
+TEST(Colliders, F19_LetWhatHasTooManyImpactsAtOnceRestWhereItIs)
+{
+    const Colliders slit(
+        {with(plane({0, 0, 0}, {0, 0, 1}), 1, 0), with(plane({0, 0, 1e-3}, {0, 0, -1}), 1, 0)}, {}, frame);
+    State state{{0, 0, 5e-4}, {3, 0, 1}}; // seventeen widths in a frame
+    const auto met = slit.fly(state.position, state.velocity, frame);
+    EXPECT_TRUE(met.cut_off);
+    EXPECT_EQ(met.impacts, Colliders::most_meetings - 1);
+    EXPECT_EQ(state.velocity, Vector3d(0, 0, 0));
+    EXPECT_NEAR(state.position.x(), 3 * 7.5e-3, 1e-15) << "where the eighth would have been";
+}
+
+// What the bound of a cluster promises: nobody in a ball that cannot touch does.
+TEST(Colliders, NeverMissAClusterWhoseMemberTouches)
+{
+    UniformFields fields = falling();
+    fields.drag = 2;
+    fields.wind = {4, -3, 1};
+    const Colliders colliders(one_of_each(), fields, 0.1);
+    int free = 0, touching = 0;
+    for (std::uint64_t i = 0; i < 100'000; ++i) {
+        Random random(30, 0, i);
+        const Vector3d centre = Vector3d(0, 0, 3) + 3 * random.uniform() * random_direction(random);
+        const Vector3d velocity = 20 * random.uniform() * random_direction(random);
+        const double radius = random.uniform();
+        State member{centre + radius * random.uniform() * random_direction(random), velocity};
+        const bool may = colliders.may_touch(centre, velocity, radius, 0.1);
+        const bool does = colliders.fly(member.position, member.velocity, 0.1).touched;
+        ASSERT_FALSE(does && !may) << "draw " << i;
+        free += may ? 0 : 1;
+        touching += does ? 1 : 0;
+    }
+    EXPECT_GT(free, 10'000);
+    EXPECT_GT(touching, 1000);
+}
+
+} // namespace
+} // namespace slod::test
