@@ -226,7 +226,9 @@ TEST_P(ShippedScene, ExplainsEveryKey)
         EXPECT_TRUE(has_comment || key == " title") << key;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::Values("fountain", "galaxy", "galaxy-collision"));
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
+                         testing::Values("cones", "fountain", "galaxy", "galaxy-collision",
+                                         "paper-fountain"));
 
 TEST_F(ShippedScene, OfTheCollisionHasTheFilesUnits)
 {
