@@ -71,6 +71,8 @@ struct ClusterTable {
     {
         return columns.withheld ? Vector3d(velocity[slot] + withheld[slot]) : velocity[slot];
     }
+    /// Whether the cluster moves at another velocity than its members' mean.
+    bool holds_velocity(std::size_t slot) const { return columns.withheld && !withheld[slot].isZero(0); }
     double mass(std::size_t slot) const { return moments[slot].weight; }
     ClusterId id(std::size_t slot) const { return {{std::uint32_t(slot)}, generation[slot]}; }
 

@@ -44,7 +44,8 @@ void Pairing::find(const SlodTree& tree, const ClusterStore& store, std::uint64_
     }
 }
 
-/// Leaves those out whom even the smallest in the pool would make too large.
+/// Leaves those out whom even the smallest in the pool would make too large, and those that move at their
+/// first particle's velocity: formed anew, they would lose it.
 void Pairing::pair_up(const Search& search, const Pool& pool)
 {
     const ClusterTable& clusters = search.store.clusters;
@@ -52,7 +53,8 @@ void Pairing::pair_up(const Search& search, const Pool& pool)
     for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index])
         smallest = std::min(smallest, clusters.count[slot.index]);
     for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index]) {
-        const bool may = clusters.count[slot.index] + smallest <= search.tree.growth_limit();
+        const bool may = clusters.count[slot.index] + smallest <= search.tree.growth_limit() &&
+                         !clusters.holds_velocity(slot.index);
         partner_[slot.index] = may ? ClusterSlot{} : slot;
         if (may)
             balls_[slot.index] = velocity_ball(search.store, slot.index, search.frame, search.reference);

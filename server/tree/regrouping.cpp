@@ -29,6 +29,7 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
     targets_.reserve(clusters);
     searches_.reserve(clusters / block + 1);
     pairing_.reserve(clusters);
+    held_.reserve(context_.store.clusters.columns.withheld ? clusters : 0);
     for (auto* list : {&crossing_, &splitting_, &merging_pairs_, &by_position_})
         list->reserve(clusters);
 }
@@ -127,12 +128,36 @@ void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
     if (splitting_.empty())
         return;
     dissolve_splitting(tree);
+    note_held_velocities();
     form_dissolved(tree, &Particle::position);
     counts.splits += splitting_.size();
+    hold_velocities();
     counts.reformed_members += grouping_.particles.size();
 }
 
 void Regrouping::divide_by_velocity(SlodTree& tree, std::uint64_t frame)
+/// Of the clusters in `splitting_` that move at their first particle's velocity.
+void Regrouping::note_held_velocities()
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    held_.clear();
+    if (!clusters.columns.withheld)
+        return;
+    for (const ClusterSlot slot : splitting_)
+        held_.push_back({clusters.velocity[slot.index], clusters.holds_velocity(slot.index)});
+}
+
+/// Lets the parts of those move on at that velocity, to where their region ends.
+void Regrouping::hold_velocities()
+{
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+        const Grouping::Group& group = grouping_.groups[i];
+        for (std::uint32_t part = 0; held_[i].held && part < group.clusters; ++part)
+            hold_velocity(context_.store.clusters, grouping_.slots[group.first_slot + part].index,
+                          held_[i].velocity);
+    }
+}
+
 {
     context_.frame = frame;
     measure_surroundings(tree);

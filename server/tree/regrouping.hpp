@@ -35,6 +35,12 @@ public:
 private:
     enum class Action : std::uint8_t { Stay, Cross, Split };
 
+    /// The velocity of a cluster, and whether it is another one than its members' mean.
+    struct HeldVelocity {
+        Vector3d velocity;
+        bool held;
+    };
+
     /// What it took to find where clusters belong.
     struct Search {
         std::uint64_t nodes = 0, tests = 0;
@@ -45,6 +51,8 @@ private:
     bool crosses(const SlodTree& tree, std::size_t slot, Search& search);
     void move_crossing(SlodTree& tree, UpdateCounts& counts);
     void split(SlodTree& tree, UpdateCounts& counts);
+    void note_held_velocities();
+    void hold_velocities();
     void measure_surroundings(const SlodTree& tree);
     void merge(SlodTree& tree, UpdateCounts& counts);
     void dissolve_splitting(SlodTree& tree);
@@ -61,6 +69,7 @@ private:
     std::vector<PoolRef> targets_; ///< by slot, of those that cross
     std::vector<Search> searches_; ///< by block of slots
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
+    std::vector<HeldVelocity> held_; ///< by cluster that is split, if any may hold one
     std::vector<ClusterSlot> by_position_;
     std::vector<Vector3d> surroundings_;   ///< by region: what its velocities are relative to
     std::vector<std::uint64_t> in_region_; ///< particles, by region

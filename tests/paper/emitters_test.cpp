@@ -81,6 +81,28 @@ TEST(Paper, A48_AClusterMovesAtItsFirstParticlesVelocityAsTheRuleSays)
     EXPECT_NEAR(transverse_variance(run(mean, 600).clusters) / of_particles, 1.0 / 16, 0.2 / 16);
 }
 
+// Clusters there do not merge, and those that are too wide are split into parts that move on as they did.
+TEST(Paper, A48_MergesAndSplitsLeaveTheRuleOfTheFirstParticleAsItIs)
+{
+    SimulationSettings settings = stream_settings(1000, ClusterVelocity::First);
+    settings.regions[0].partition.angle_deg = RegionSettings{}.angle_deg;
+    settings.regions[0].partition.max_cluster_size = 64;
+    settings.regions[0].partition.max_breadth = 0.2;
+    Simulation simulation(settings, {}, {});
+    const auto births = velocities_at_birth();
+    std::uint64_t splits = 0, merges = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        const Snapshot& snapshot = simulation.step({.clusters = true});
+        splits += snapshot.counts.splits;
+        merges += snapshot.counts.merges;
+        for (const Vector3d& v : snapshot.clusters.velocity)
+            ASSERT_TRUE(std::binary_search(births.begin(), births.end(), std::array{v.x(), v.y(), v.z()}))
+                << "frame " << frame;
+    }
+    EXPECT_GT(splits, 10U);
+    EXPECT_EQ(merges, 0U);
+}
+
 // The clusters' momentum is wrong by what their particles' velocities do not average in, and right again in
 // the frame in which they have left.
 TEST(Paper, A49_BeyondTheEmittersRegionAClusterTakesTheMeanVelocity)
