@@ -255,7 +255,7 @@ void Regrouping::measure_surroundings(const SlodTree& tree)
 void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
 {
     measure_surroundings(tree);
-    pairing_.find(tree, context_.store, context_.frame, surroundings_, merging_pairs_);
+    counts.pair_tests += pairing_.find(tree, context_.store, context_.frame, surroundings_, merging_pairs_);
     if (merging_pairs_.empty())
         return;
     const ClusterTable& clusters = context_.store.clusters;

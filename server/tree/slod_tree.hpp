@@ -95,8 +95,9 @@ struct UpdateCounts {
     std::uint64_t strays_founding = 0;  ///< re-formed members that started a cluster in a pool not due
     std::uint64_t crossings = 0;        ///< clusters that moved to another pool
     std::uint64_t reinserted = 0;       ///< clusters put into cells of another size or binning
-    std::uint64_t splits = 0;           ///< clusters split for size or breadth
+    std::uint64_t splits = 0;           ///< clusters split for size, breadth or drift
     std::uint64_t merges = 0;
+    std::uint64_t pair_tests = 0;     ///< candidates looked at for clusters that may merge
     std::uint64_t nodes_searched = 0; ///< k-d nodes looked at for clusters that left their leaf or region
     std::uint64_t boundary_tests = 0; ///< regions asked whether they hold a cluster
 };

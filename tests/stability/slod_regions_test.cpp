@@ -276,3 +276,11 @@ TEST(SlodStability, S16_WhatADeletedRegionHeldIsAdoptedAtOnce)
 
 } // namespace
 } // namespace slod::test
+    // Its clusters of 8 flood leaves of at most 1.4 * 4 * 64 members, which are divided at once: each looks
+    // at no more than the others of its leaf, in the three turns until they are merged to 64, fewer each
+    // time.
+    std::uint64_t pair_tests = snapshot.counts.pair_tests;
+    for (int frame = 0; frame < 48; ++frame)
+        pair_tests += simulation.step({}).counts.pair_tests;
+    EXPECT_LE(pair_tests, count / 8 * 45 * 2);
+    EXPECT_GT(pair_tests, 0U);
