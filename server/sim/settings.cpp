@@ -108,11 +108,11 @@ void check_lives(const MotionSettings& motion, Problems& found)
                         "; use at most that.");
 }
 
-void check_merging(const MotionSettings& motion, Problems& found)
+void check_rigid_rules(const MotionSettings& motion, Problems& found)
 {
     if (motion.motion == Motion::Rigid)
         return;
-    const std::string remedy = " is for clusters that merge; set motion.kind = \"rigid\" or leave it out.";
+    const std::string remedy = " applies to rigid motion alone; set motion.kind = \"rigid\" or leave it out.";
     if (motion.merged_velocities != MergedVelocities::Keep)
         found.push_back("motion.merged_velocities = \"collapse\"" + remedy);
     if (motion.build_respects_limits)
@@ -169,7 +169,7 @@ Problems problems(const SimulationSettings& settings)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);
     check_regions(settings.regions, settings.sharing, found);
     check_lives(settings.motion, found);
-    check_merging(settings.motion, found);
+    check_rigid_rules(settings.motion, found);
     if (settings.uniform_wind && !settings.linear_drag)
         found.push_back(
             "uniform_wind acts through the air's drag alone and the scene has none; add [linear_drag] or "

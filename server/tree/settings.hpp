@@ -51,6 +51,9 @@ constexpr std::array<std::string_view, 3> names(Attracts)
     return {"everything", "own_region", "nothing"};
 }
 
+/// Bins of a quantity above the one below the floor: the last has no end.
+inline constexpr std::int32_t most_bins = 64;
+
 /// The partitioning parameters of one region of interest (O'Brien et al. 2001, section 4.1).
 struct RegionSettings {
     double max_cluster_size = 64; ///< particles per cluster; real-valued, floored when used
@@ -69,7 +72,7 @@ struct RegionSettings {
     ClusterVelocity cluster_velocity = ClusterVelocity::Mean;
     BinBy bin_by = BinBy::None; ///< what a cluster's particles are alike in (section 3.3)
     double bin_floor = 1;       ///< of that quantity: all below it share one bin
-    double bin_ratio = 2;       ///< largest to smallest in each of the others
+    double bin_ratio = 2;       ///< largest to smallest in each of the others but the last, most_bins
 
     friend bool operator==(const RegionSettings&, const RegionSettings&) = default;
 };
@@ -88,10 +91,9 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
     visit(Field{"control_share", "",
                 "How far the frame rate controller may change the two sizes: 0 not at all, 1 in full.", 0, 1},
           region.control_share);
-    visit(Field{"speed_ratio", "", "Clusters merge only below this ratio of speeds (rigid motion).", 1, 1e6},
+    visit(Field{"speed_ratio", "", "Clusters merge only below this ratio of speeds.", 1, 1e6},
           region.speed_ratio);
-    visit(Field{"angle", "deg", "Clusters merge only below this angle between velocities (rigid motion).", 0,
-                180},
+    visit(Field{"angle", "deg", "Clusters merge only below this angle between velocities.", 0, 180},
           region.angle_deg);
     visit(Field{"speed_floor", "length/time", "Clusters slower than this merge whatever their directions.", 0,
                 no_maximum},
@@ -109,7 +111,9 @@ void for_each_field(RegionSettings& region, Visitor&& visit)
           region.bin_by);
     visit(Field{"bin_floor", "", "All below it, in the unit of the quantity, share one bin.", 1e-30, 1e30},
           region.bin_floor);
-    visit(Field{"bin_ratio", "", "Largest to smallest value within a bin.", 1.01, 1e6}, region.bin_ratio);
+    visit(Field{"bin_ratio", "",
+                "Largest to smallest value within a bin; the 64th above the floor has no end.", 1.01, 1e6},
+          region.bin_ratio);
 }
 
 } // namespace slod

@@ -110,7 +110,6 @@ void merge_leaves(Subtree& tree, ClusterTable& clusters, PoolId kept, PoolId giv
 /// Bins grow by a constant ratio from the floor on; products, as the C library's logarithms differ.
 std::int32_t bin_of(const RegionSettings& settings, const Subject& subject)
 {
-    constexpr std::int32_t most_bins = 64;
     double value = 0;
     switch (settings.bin_by) {
     case BinBy::None:

@@ -157,7 +157,7 @@ TEST(SimulationSettings, RefuseLivesThatAreNoPowersOfTwo)
     EXPECT_TRUE(one_says(found, {"motion.longest_life = 100 is no power of two; use 64."}));
 }
 
-TEST(SimulationSettings, RefuseRulesForMergesWhereNothingMerges)
+TEST(SimulationSettings, RefuseRulesOfRigidMotionInAnyOther)
 {
     SimulationSettings settings = sound();
     settings.motion.merged_velocities = MergedVelocities::Collapse;

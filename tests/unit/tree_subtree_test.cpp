@@ -47,6 +47,21 @@ TEST(CellOf, PutsWhatIsBeyondTheGridIntoTheCellsAtItsRim)
     }
 }
 
+TEST(CellOf, PutsAllAboveTheLastEdgeOfSixtyFourIntoOneBin)
+{
+    const test::World world(rigid, {}, {.bin_by = BinBy::Mass, .bin_floor = 2, .bin_ratio = 1.01}, 1.0);
+    const auto bin = [&](double mass) {
+        return cell_of(world.tree.subtrees.front(), {Vector3d(0, 0, 0), mass}).bin;
+    };
+    EXPECT_EQ(bin(0), 0);
+    EXPECT_EQ(bin(1.99), 0);
+    EXPECT_EQ(bin(2), 1);
+    EXPECT_EQ(bin(2 * std::pow(1.01, 61.5)), 62);
+    EXPECT_EQ(bin(2 * std::pow(1.01, 62.5)), 63);
+    EXPECT_EQ(bin(2 * std::pow(1.01, 63.5)), most_bins);
+    EXPECT_EQ(bin(1e30), most_bins);
+}
+
 // 0.1 and 0.3 are no binary fractions: at many faces the rounded quotient falls on the wrong side.
 TEST(CellOf, AgreesWithTheCellsBoxAtEveryFace)
 {
