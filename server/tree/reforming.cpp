@@ -262,10 +262,7 @@ void Reforming::expand_group(SlodTree& tree, std::size_t index)
         std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
             return coordinate(a) != coordinate(b) ? coordinate(a) < coordinate(b) : a < b;
         });
-        // Cells keep a bounded aspect ratio: no split near a face.
-        const double margin = 0.2 * box.size()[axis];
-        const double position =
-            std::clamp(coordinate(*middle), box.lower[axis] + margin, box.upper[axis] - margin);
+        const double position = split_position(box, axis, coordinate(*middle));
         const auto cut =
             std::partition(begin, end, [&](std::uint32_t i) { return coordinate(i) < position; });
         const auto lower = std::uint32_t(cut - begin);

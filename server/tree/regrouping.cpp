@@ -84,8 +84,9 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot, Se
     return crosses(tree, slot, search) ? Action::Cross : Action::Stay;
 }
 
-/// Whether the cluster has left its leaf or belongs to another region; where it goes is in `targets_`. Other
-/// regions are asked only where the leaf's mark says that there are any; else the search is bottom-up.
+/// Whether the cluster has left its leaf or belongs to another region; where it goes is in `targets_`. The
+/// index is asked where the leaf's mark says that there are other regions, and whenever the cluster has left
+/// its leaf, as the mark says nothing of where it is then. Within its region the search is bottom-up.
 bool Regrouping::crosses(const SlodTree& tree, std::size_t slot, Search& search)
 {
     const ClusterTable& clusters = context_.store.clusters;
@@ -127,15 +128,14 @@ void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
 {
     if (splitting_.empty())
         return;
-    dissolve_splitting(tree);
     note_held_velocities();
+    dissolve_splitting(tree);
     form_dissolved(tree, &Particle::position);
-    counts.splits += splitting_.size();
     hold_velocities();
+    counts.splits += splitting_.size();
     counts.reformed_members += grouping_.particles.size();
 }
 
-void Regrouping::divide_by_velocity(SlodTree& tree, std::uint64_t frame)
 /// Of the clusters in `splitting_` that move at their first particle's velocity.
 void Regrouping::note_held_velocities()
 {
@@ -158,6 +158,7 @@ void Regrouping::hold_velocities()
     }
 }
 
+void Regrouping::divide_by_velocity(SlodTree& tree, std::uint64_t frame)
 {
     context_.frame = frame;
     measure_surroundings(tree);
@@ -197,12 +198,12 @@ void Regrouping::dissolve_splitting(SlodTree& tree)
     dissolve(tree, grouping_, splitting_, context_);
 }
 
-/// Divides the groups of dissolved clusters by `place`, forms clusters and links each where it is.
-void Regrouping::form_dissolved(SlodTree& tree, Vector3d Particle::*place)
+/// Divides the groups of dissolved clusters by `key`, forms clusters and links each where it is.
+void Regrouping::form_dissolved(SlodTree& tree, Vector3d Particle::*key)
 {
     ClusterTable& clusters = context_.store.clusters;
     for (std::size_t i = 0; i < grouping_.particles.size(); ++i)
-        grouping_.place[i] = grouping_.particles[i].*place;
+        grouping_.place[i] = grouping_.particles[i].*key;
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
     form_groups(grouping_, context_);
     for (const ClusterSlot slot : grouping_.slots) {
@@ -316,9 +317,7 @@ void Regrouping::expand_crowded(Subtree& tree, PoolId pool)
         auto median = by_position_.begin();
         while (2 * below < tree.pools[pool.index].members && median + 1 != by_position_.end())
             below += clusters.count[(median++)->index];
-        const double margin = 0.2 * box.size()[axis];
-        const double position =
-            std::clamp(coordinate(*median), box.lower[axis] + margin, box.upper[axis] - margin);
+        const double position = split_position(box, axis, coordinate(*median));
         expand_crowded(tree, expand(tree, clusters, pool, axis, position));
     }
 }

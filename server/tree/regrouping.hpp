@@ -56,7 +56,7 @@ private:
     void measure_surroundings(const SlodTree& tree);
     void merge(SlodTree& tree, UpdateCounts& counts);
     void dissolve_splitting(SlodTree& tree);
-    void form_dissolved(SlodTree& tree, Vector3d Particle::*place);
+    void form_dissolved(SlodTree& tree, Vector3d Particle::*key);
     void share_velocities();
     void revise(SlodTree& tree);
     void expand_crowded(Subtree& tree, PoolId pool);

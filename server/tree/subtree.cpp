@@ -292,6 +292,12 @@ PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, doub
     return right;
 }
 
+double split_position(const Box& box, int axis, double wanted)
+{
+    const double margin = 0.2 * box.size()[axis];
+    return std::clamp(wanted, box.lower[axis] + margin, box.upper[axis] - margin);
+}
+
 void take_own_turn(Subtree& tree, PoolId pool)
 {
     tree.pools[pool.index].phase = phase_of(pool);

@@ -105,6 +105,10 @@ bool holds(const Subtree& tree, PoolId pool, const Subject& subject);
 /// pool itself becomes the left one; the right one is returned, with the same turn.
 PoolId expand(Subtree& tree, ClusterTable& clusters, PoolId pool, int axis, double position);
 
+/// Where a leaf's box is split along `axis`: as near to `wanted` as keeps the parts' aspect ratio bounded,
+/// which is not near a face.
+double split_position(const Box& box, int axis, double wanted);
+
 /// Gives a pool a turn of its own, unlike that of the pool it was split from.
 void take_own_turn(Subtree& tree, PoolId pool);
 
