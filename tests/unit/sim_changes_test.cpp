@@ -85,5 +85,26 @@ TEST(ForcesThatAreEvaluatedAgain, AreThoseOfTheFrameThatHasEnded)
     EXPECT_EQ(rms_distance(changed.particles(), left_alone.particles()), 0);
 }
 
+/// Pools whose lives end in the frame after a region about the middle of "flow" was changed.
+std::uint64_t lives_ended_by(const std::function<void(RegionOfInterest&)>& change)
+{
+    SmallScene scene = small_scene("flow");
+    scene.settings.regions = {ball_region("middle", {0, 0, 0}, 1.5, 8)};
+    Simulation simulation(scene.settings, scene.initial, {});
+    run(simulation, 20);
+    RegionOfInterest region = scene.settings.regions[0];
+    change(region);
+    EXPECT_EQ(simulation.change_region(region), Problems{});
+    return simulation.step({}).counts.due_pools;
+}
+
+TEST(ChangeOfARegion, EndsLivesWhereItsPlaceChangesAndNotForItsParametersAlone)
+{
+    const std::uint64_t ending_anyway = lives_ended_by([](RegionOfInterest&) {});
+    EXPECT_EQ(lives_ended_by([](RegionOfInterest& region) { region.partition.max_cluster_size = 4; }),
+              ending_anyway);
+    EXPECT_GT(lives_ended_by([](RegionOfInterest& region) { region.radius = 1.6; }), ending_anyway);
+}
+
 } // namespace
 } // namespace slod::test
