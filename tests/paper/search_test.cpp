@@ -117,8 +117,8 @@ TEST(Paper, A36_AClusterThatDriftsIntoAnOverlaidRegionIsTransferredInThatFrame)
     EXPECT_EQ(load_of(simulation, simulation.snapshot({}), "overlay").particles, 0U);
 }
 
-// A refused region changes nothing. What is searched then is bottom-up, but for leaves that a region's face
-// cuts.
+// A refused region changes nothing. Regions are asked then in leaves that a face cuts, and of clusters that
+// leave theirs.
 TEST(Paper, A37_WhereOverlapsAreForbiddenRegionsThatOverlapAreRefused)
 {
     SimulationSettings settings = rigid_settings(8);
