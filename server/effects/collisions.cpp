@@ -109,6 +109,8 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
     form_groups(grouping_, context);
     for (const ClusterSlot slot : grouping_.slots) {
+        if (!clusters.position[slot.index].allFinite())
+            refuse_unbounded(context.frame);
         const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
     }

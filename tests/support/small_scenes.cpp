@@ -101,6 +101,7 @@ void add_colliders(SimulationSettings& settings)
 SmallScene obstacles(const std::string& name, Motion motion)
 {
     SmallScene scene = fountain(name, motion);
+    scene.settings.background.max_breadth = 1;
     add_colliders(scene.settings);
     add_cloud(scene.initial, {.count = 200, .mass = 1e-3, .scale = 0.02}, 3);
     return scene;
