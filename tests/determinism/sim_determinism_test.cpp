@@ -109,9 +109,9 @@ const std::map<std::string, std::uint64_t> pinned{
     {"regions", 0x638d6692dd515f60},
     {"full_fountain", 0xf279d52274d45aa},
     {"walk_with_quadrupoles", 0xcf2c06de94c481cc},
-    {"obstacles", 0x3d87321f823cfc2},
-    {"rigid_obstacles", 0x74e5ef3416dd559e},
-    {"attracted_obstacles", 0x9d10ea5ff35f3744},
+    {"obstacles", 0x7ba4153cd1f7646f},
+    {"rigid_obstacles", 0xb4413e9c52c00234},
+    {"attracted_obstacles", 0x52a9420e12645135},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)
