@@ -55,7 +55,7 @@ TEST(SlodStability, S06_ClustersComeToRestUnderTheSmoothController)
             SCOPED_TRACE("target " + std::to_string(target) + " noise " + std::to_string(noise));
             const Settled settled = settle(ControlMode::Smooth, target, noise);
             EXPECT_LE(settled.events, 0.01);
-            EXPECT_LE(settled.rms, noise + 0.03);
+            EXPECT_LE(settled.rms, noise + 0.04) << "what has come to rest moves only above this error";
             EXPECT_TRUE(noise > 0 || settled.moves == 0);
         }
     }
