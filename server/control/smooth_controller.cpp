@@ -6,14 +6,15 @@
 namespace slod {
 namespace {
 
-/// Share of an error that is taken up at once. Where the work grows faster than the clusters, as in all
-/// pairs, the whole of it would swing.
-constexpr double gain = 0.9;
+/// Share of an error that is taken up at once. More than the whole where it may, as births follow the size at
+/// once, but what is there merges in rounds, and may have died before the last; with gravity less, as the
+/// work grows faster than the clusters and would swing.
+constexpr double gain_of_fields = 2, gain_of_gravity = 0.9;
 constexpr double most_rise = 0.06, most_fall = 0.025; ///< of the output in a frame
 constexpr double rest = 0.02;                         ///< error within which the output rests
 constexpr double leave = 0.04;                        ///< and above which it no longer does
 constexpr double reached = 0.05;                      ///< error up to which the target counts as met
-/// Frames in which clusters follow, roughly: splits are swept over 8 frames, merges over 16.
+/// Frames in which clusters begin to follow: splits are swept over 8 frames, merges over 16.
 constexpr double lag_frames = 6;
 /// Frames whose births are taken into account: those in which small clusters have merged.
 constexpr double foresight_frames = 10;
@@ -103,6 +104,7 @@ void SmoothController::turn_size(double error, double crowding, double growth)
 {
     const bool resting = std::abs(error + growth) < (state_ == ControlState::Holding ? leave : rest);
     if (!resting) {
+        const double gain = scope_.opening ? gain_of_gravity : gain_of_fields;
         const double wanted = fill_ - crowding + gain * error + growth;
         output_ += std::clamp(wanted - output_, -most_fall, most_rise);
         output_ = std::clamp(output_, least_output(), most_output());
