@@ -3,7 +3,8 @@
 #include <array>
 #include <cstdio>
 #include <string_view>
-#include <sys/wait.h>
+
+#include "idl/gnuplot.hpp"
 
 namespace slod::stress {
 
@@ -17,19 +18,10 @@ std::string formatted(const char* format, Values... values)
     return text.data();
 }
 
-/// In gnuplot a quote within single quotes is written twice.
-std::string in_quotes(std::string_view text)
-{
-    std::string result = "'";
-    for (const char letter : text)
-        result += letter == '\'' ? "''" : std::string(1, letter);
-    return result + "'";
-}
-
 std::string head(const std::string& file, const char* layout, const char* size)
 {
     return "set terminal pngcairo size " + std::string(size) + " font 'sans,11'\nset output " +
-           in_quotes(file) + "\nset multiplot layout " + layout + "\nset grid\n";
+           gnuplot_quoted(file) + "\nset multiplot layout " + layout + "\nset grid\n";
 }
 
 /// "$name << end": a block of data.
@@ -73,12 +65,13 @@ std::string load_script(const Report& report, const std::string& file)
         if (histogram.count() == 0)
             return;
         data += block(name, tail_of(histogram));
-        curves += (curves.empty() ? "plot $" : ", $") + name + " with linespoints title " + in_quotes(title);
+        curves +=
+            (curves.empty() ? "plot $" : ", $") + name + " with linespoints title " + gnuplot_quoted(title);
     };
     for (const ReaderReport& readers : report.readers) {
         const std::string name = name_of(readers);
         add_curve("latency" + std::to_string(int(readers.reader)), "latency, " + name, readers.latency);
-        bars += in_quotes(name) + formatted(" %g\n", 100 * readers.delivered);
+        bars += gnuplot_quoted(name) + formatted(" %g\n", 100 * readers.delivered);
     }
     add_curve("round_trip", "command to answer", report.commands.round_trip);
     std::string script = head(file, "1,2", "1100,420") + data;
@@ -121,22 +114,6 @@ std::string sweep_line(const Report& report)
         "%3d subscribers  %7.2f Hz  %6.2f %% delivered  %9.1f MB/s  latency p50 %.2f  p99 %.2f ms\n",
         int(report.subscribers), report.load.frame_rate_hz, 100 * readers.delivered, readers.mb_s,
         readers.latency.quantile(0.5), readers.latency.quantile(0.99));
-}
-
-/// Where gnuplot cannot open the file it draws to stdout instead, which is for the report.
-std::string run_gnuplot(const std::string& script)
-{
-    constexpr int not_found = 127; // the shell's exit code
-    FILE* const gnuplot = popen("gnuplot >/dev/null", "w");
-    if (!gnuplot)
-        return "no further process can be started; end some";
-    const bool written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-    const int status = pclose(gnuplot);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == not_found)
-        return "gnuplot is missing; install the package gnuplot-nox";
-    if (status != 0 || !written)
-        return "gnuplot could not write it; name a file in a folder that is there and may be written to";
-    return {};
 }
 
 } // namespace slod::stress

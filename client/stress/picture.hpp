@@ -17,7 +17,4 @@ std::string sweep_script(const std::vector<Report>& reports, const std::string& 
 /// A sweep's figures for one number of subscribers: a line of text with its end.
 std::string sweep_line(const Report& report);
 
-/// Runs gnuplot as a process of its own. Why that failed, with a remedy; empty when it did not.
-std::string run_gnuplot(const std::string& script);
-
 } // namespace slod::stress

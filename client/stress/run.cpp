@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/waiting.hpp"
+#include "idl/gnuplot.hpp"
 #include "stress/picture.hpp"
 
 namespace slod::stress {

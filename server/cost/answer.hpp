@@ -1,10 +1,10 @@
 #pragma once
 
-#include "cost/sweep.hpp"
-
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "cost/sweep.hpp"
 
 namespace slod::cost {
 

@@ -1,7 +1,3 @@
-#include "cost/answer.hpp"
-#include "cost/report_files.hpp"
-#include "cost/sweep.hpp"
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -19,6 +15,10 @@
 #include <CLI/CLI.hpp>
 
 #include "core/parallel.hpp"
+#include "cost/answer.hpp"
+#include "cost/report_files.hpp"
+#include "cost/sweep.hpp"
+#include "idl/gnuplot.hpp"
 #include "idl/version.hpp"
 
 namespace {
@@ -61,14 +61,6 @@ void write(const std::filesystem::path& file, const std::string& text)
     stream << text;
     if (!stream.flush())
         throw std::runtime_error("cannot write " + file.string());
-}
-
-/// Why there is no picture; empty when there is one.
-std::string draw(const std::filesystem::path& script)
-{
-    const std::string command = "gnuplot '" + script.string() + "'";
-    return std::system(command.c_str()) == 0 ? std::string()
-                                             : "gnuplot drew no picture; install the package gnuplot-nox";
 }
 
 int measure(const CommandLine& line)
@@ -115,13 +107,12 @@ int measure(const CommandLine& line)
                                             .machine = std::string(host.data()) + ", " +
                                                        std::to_string(std::thread::hardware_concurrency()) +
                                                        " processors",
-                                            .particles = initial(scene.simulation.seed).size(),
+                                            .particles = sweep.rows.front().clusters,
                                             .frames = plan.frames,
                                             .threads = threads};
     write(line.folder / "cost.csv", cost::csv_text(sweep));
     write(line.folder / "cost.json", cost::json_text(sweep, circumstances));
-    write(line.folder / "cost.gp", cost::plot_script(sweep, circumstances, line.folder / "cost"));
-    const std::string undrawn = draw(line.folder / "cost.gp");
+    const std::string undrawn = run_gnuplot(cost::plot_script(sweep, circumstances, line.folder / "cost"));
     std::printf("%s\n%s", cost::table_text(sweep).c_str(), cost::answer(sweep).c_str());
     if (!undrawn.empty())
         std::fprintf(stderr, "slod-cost: %s\n", undrawn.c_str());

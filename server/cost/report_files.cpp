@@ -1,13 +1,14 @@
 #include "cost/report_files.hpp"
 
-#include "cost/answer.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
+
+#include "cost/answer.hpp"
+#include "idl/gnuplot.hpp"
 
 namespace slod::cost {
 namespace {
@@ -133,7 +134,8 @@ std::string plot_script(const Sweep& sweep, const Circumstances& circumstances,
            << " frames, " << circumstances.threads << " threads; labels: largest cluster size\"\n";
     for (const char* const terminal : {"png", "svg"}) {
         script << "set terminal " << (std::string(terminal) == "png" ? "pngcairo" : "svg")
-               << " size 900,600\nset output '" << picture.string() << '.' << terminal << "'\nplot ";
+               << " size 900,600\nset output " << gnuplot_quoted(picture.string() + "." + terminal)
+               << "\nplot ";
         for (const std::string& curve : drawn)
             script << curve << ", ";
         script << "1 dashtype 2 lc 'gray' title 'as another seed'\n";

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "cost/sweep.hpp"
-
 #include <filesystem>
 #include <string>
+
+#include "cost/sweep.hpp"
 
 namespace slod::cost {
 
@@ -12,7 +12,7 @@ struct Circumstances {
     std::string scene;       ///< its title
     std::string version;     ///< of the program
     std::string machine;     ///< name and processors
-    std::uint64_t particles; ///< at the end
+    std::uint64_t particles; ///< at the end; of the unclustered run
     int frames;
     int threads;
 };

@@ -1,11 +1,10 @@
 #include "cost/sweep.hpp"
 
-#include "cost/metrics.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
+#include "cost/metrics.hpp"
 
 namespace slod::cost {
 namespace {
@@ -54,7 +53,7 @@ public:
     Sweeper(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
             const Clock& clock, const Progress& progress)
         : scene_(scene), initial_(initial), plan_(plan), clock_(clock), progress_(progress),
-          runs_(double(1 + plan.seeds) + double(plan.settings.size()))
+          particles_(initial(scene.seed)), runs_(double(1 + plan.seeds) + double(plan.settings.size()))
     {}
 
     Sweep run()
@@ -76,7 +75,8 @@ private:
         SimulationSettings settings = with_setting(scene_, setting);
         settings.seed = seed;
         const auto tell = [&](int frame) { progress_(name, (done_ + double(frame) / plan_.frames) / runs_); };
-        Trial outcome = run_trial(settings, initial_(seed), plan_.frames, clock_, tell);
+        const bool own = seed == scene_.seed;
+        Trial outcome = run_trial(settings, own ? particles_ : initial_(seed), plan_.frames, clock_, tell);
         done_ += 1;
         return outcome;
     }
@@ -134,8 +134,9 @@ private:
     const SweepPlan& plan_;
     const Clock& clock_;
     const Progress& progress_;
-    double runs_;     ///< in the plan
-    double done_ = 0; ///< of them
+    const ParticleSet particles_; ///< at the start, for the scene's own seed
+    double runs_;                 ///< in the plan
+    double done_ = 0;             ///< of them
 };
 
 } // namespace

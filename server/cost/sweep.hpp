@@ -1,11 +1,11 @@
 #pragma once
 
-#include "cost/trial.hpp"
-
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "cost/trial.hpp"
 
 namespace slod::cost {
 

@@ -21,6 +21,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "idl/gnuplot.hpp"
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -245,9 +247,9 @@ int settled_after(const std::vector<Frame>& course, double begin_s, double end_s
 void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::filesystem::path& folder,
           const std::string& picture)
 {
-    const std::filesystem::path script_file = folder / "plot.gp";
-    std::ofstream script(script_file);
-    script << "set terminal pngcairo size 1200,1100 font 'sans,11'\nset output '" << picture << "'\n"
+    std::ostringstream script;
+    script << "set terminal pngcairo size 1200,1100 font 'sans,11'\nset output "
+           << slod::gnuplot_quoted(picture) << "\n"
            << "set multiplot layout 3,1\nset key top right\nset xrange [0:" << frames << "]\nset grid\n";
     const std::vector<std::pair<std::string, std::string>> panels{
         {"frames per second", "2"}, {"work of a frame [ms]", "3"}, {"maximum cluster size", "4"}};
@@ -270,9 +272,8 @@ void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::f
                        ? std::to_string(0.8 * period_ms) + " dashtype 2 lc 'gray' title 'target'\n"
                        : "30 dashtype 2 lc 'gray' title 'largest in the paper'\n");
     }
-    script.close();
-    if (std::system(("gnuplot " + script_file.string()).c_str()) != 0)
-        throw std::runtime_error("gnuplot failed; ./dev setup installs it");
+    if (const std::string problem = slod::run_gnuplot(script.str()); !problem.empty())
+        throw std::runtime_error(problem);
 }
 
 } // namespace

@@ -1,13 +1,12 @@
-#include "cost/answer.hpp"
-#include "cost/metrics.hpp"
-#include "cost/report_files.hpp"
-#include "cost/sweep.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "cost/answer.hpp"
+#include "cost/metrics.hpp"
+#include "cost/report_files.hpp"
+#include "cost/sweep.hpp"
 #include "support/clouds.hpp"
 #include "support/small_scenes.hpp"
 
@@ -191,6 +190,13 @@ TEST(CostAnswer, NamesTheBestWithinATimeAndTheFastestWithinAnError)
     const std::string text = answer({.rows = rows, .floor = {}});
     EXPECT_NE(text.find("at  30 frames a second   flow 4"), std::string::npos) << text;
     EXPECT_NE(text.find("at 120 frames a second   none"), std::string::npos) << text;
+}
+
+TEST(CostFiles, APictureMayBeInAFolderOfAnyName)
+{
+    const Sweep sweep{.rows = {row(Motion::Flow, 1, 100, 0), row(Motion::Flow, 16, 10, 4)}, .floor = {}};
+    const std::string script = plot_script(sweep, {}, "it's/cost");
+    EXPECT_NE(script.find("set output 'it''s/cost.png'"), std::string::npos) << script;
 }
 
 TEST(CostFiles, TheTableHasALinePerSetting)
