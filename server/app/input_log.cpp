@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -94,6 +91,13 @@ LoggedCommand command_from(const Json& line)
             .settings = settings_from(line.value("settings", std::vector<std::string>()))};
 }
 
+/// Makes the folder if need be.
+std::filesystem::path log_in(const std::filesystem::path& folder)
+{
+    std::filesystem::create_directories(folder);
+    return folder / "input.log";
+}
+
 /// Takes in one line after the header.
 void read_line(const Json& line, InputLog& log)
 {
@@ -141,12 +145,8 @@ std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& fil
 }
 
 InputLogWriter::InputLogWriter(const std::filesystem::path& folder, const InputLogHeader& header)
-    : place_(folder / "input.log")
+    : file_(log_in(folder))
 {
-    std::filesystem::create_directories(folder);
-    file_.reset(std::fopen(place_.c_str(), "we"));
-    if (!file_)
-        throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
     write_line(json_text(to_json(header)));
 }
 
@@ -163,14 +163,13 @@ void InputLogWriter::record(const LoggedCommand& command)
 void InputLogWriter::finish(const InputLogEnd& end)
 {
     write_line(json_text({{"frames", end.frames}, {"state_hash", hash_text(end.state_hash)}}));
-    if (::fsync(fileno(file_.get())) != 0)
-        throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
+    file_.sync();
 }
 
 void InputLogWriter::write_line(const std::string& line)
 {
-    if (std::fputs((line + '\n').c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0)
-        throw std::system_error(errno, std::generic_category(), "cannot write " + place_.string());
+    file_.add(line);
+    file_.flush();
 }
 
 std::uint64_t content_hash(const ParticleSet& particles)

@@ -2,15 +2,14 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "app/line_file.hpp"
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
 #include "scene/assignments.hpp"
@@ -75,14 +74,10 @@ public:
     void finish(const InputLogEnd& end);
 
 private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
+    /// Whole lines only, so that what a crash leaves can still be read.
     void write_line(const std::string& line);
 
-    std::filesystem::path place_;
-    std::unique_ptr<std::FILE, Close> file_;
+    LineFile file_;
 };
 
 /// Hash of particles as delivered: XXH3 over every field, in order.

@@ -51,7 +51,7 @@ void Outputs::record(const LoggedCommand& command)
     }
 }
 
-void Outputs::trace(const Snapshot& snapshot, const FrameTime& took, const Regulator::Report& regulation)
+void Outputs::trace(const Snapshot& snapshot, const FrameTime& took, const ControlReport& regulation)
 {
     if (!trace_)
         return;

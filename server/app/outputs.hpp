@@ -24,7 +24,7 @@ public:
     void record(const LoggedCommand& command);
 
     /// Adds a frame to the trace, if there is one. When that fails the trace ends there.
-    void trace(const Snapshot& snapshot, const FrameTime& took, const Regulator::Report& regulation);
+    void trace(const Snapshot& snapshot, const FrameTime& took, const ControlReport& regulation);
 
     /// Writes each by itself, and says of each that cannot be written why.
     Problems write(const Job& job, const Server& server, const RunSummary& summary);

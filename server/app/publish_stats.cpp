@@ -59,7 +59,7 @@ void StatsEncoder::encode_phases(const StepProfile& profile)
     wire::lend(message_.phases, phases_);
 }
 
-void StatsEncoder::encode_control(const Regulator::Report& regulation, const Detail& detail)
+void StatsEncoder::encode_control(const ControlReport& regulation, const Detail& detail)
 {
     slod_v1_ControlStats& control = message_.control;
     wire::set(control.mode, names(regulation.mode)[std::size_t(regulation.mode)]);

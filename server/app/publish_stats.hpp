@@ -24,7 +24,7 @@ public:
 
 private:
     void encode_phases(const StepProfile& profile);
-    void encode_control(const Regulator::Report& regulation, const Detail& detail);
+    void encode_control(const ControlReport& regulation, const Detail& detail);
     void encode_counts(const FrameCounts& counts);
 
     std::vector<slod_v1_PhaseTime> phases_;

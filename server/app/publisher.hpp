@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/regulator.hpp"
 #include "app/requests.hpp"
+#include "control/controller.hpp"
 #include "scene/server_settings.hpp"
 #include "sim/settings.hpp"
 #include "sim/snapshot.hpp"
@@ -23,7 +23,7 @@ struct LoopStats {
     double work_ms;                  ///< of a frame, without the wait for the next
     double real_time_factor;         ///< scene time, in SI seconds, per second of wall time
     double frame_rate_target_hz = 0; ///< that the loop paces itself to; 0: as fast as it goes
-    Regulator::Report regulation{};  ///< at the frame's start
+    ControlReport regulation{};      ///< at the frame's start
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop

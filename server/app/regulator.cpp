@@ -41,8 +41,9 @@ void Regulator::set(const LoopSettings& settings, const SceneEditor& editor, con
         controller_.reset();
     else if (other_settings || !controller_)
         controller_ = make_controller(settings_, scope, simulation.detail());
-    else
+    else if (scope != scope_) // not whenever a region moves
         controller_->set_scope(scope);
+    scope_ = scope;
 }
 
 void Regulator::add(const Snapshot& snapshot, double work_ms)
@@ -65,7 +66,7 @@ void Regulator::apply(SceneEditor& editor, std::uint64_t frame)
         ++decisions_;
 }
 
-Regulator::Report Regulator::report() const
+ControlReport Regulator::report() const
 {
     if (!controller_)
         return {.mode = settings_.mode};

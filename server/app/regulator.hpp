@@ -1,12 +1,11 @@
 #pragma once
 
-#include "control/controller.hpp"
-
 #include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "app/scene_editor.hpp"
+#include "control/controller.hpp"
 #include "scene/server_settings.hpp"
 #include "sim/simulation.hpp"
 #include "sim/snapshot.hpp"
@@ -17,14 +16,6 @@ namespace slod {
 /// the simulation's thread.
 class Regulator {
 public:
-    /// How it goes, for people.
-    struct Report {
-        ControlMode mode = ControlMode::Off;
-        ControlState state = ControlState::Off;
-        double target_ms = 0;        ///< work that a frame is to take; 0: there is no controller
-        std::uint64_t decisions = 0; ///< changes of detail so far
-    };
-
     /// Takes up other settings and other regions, where they are. Another controller goes on from the detail
     /// that the last one left; without one the scene has its own again. Where nothing can be turned, as in a
     /// scene planned without clusters, there is none.
@@ -36,12 +27,13 @@ public:
     /// Gives the simulation the detail that is decided on for `frame`, the next to run.
     void apply(SceneEditor& editor, std::uint64_t frame);
 
-    Report report() const;
+    ControlReport report() const;
 
 private:
     ControlSettings settings_{.mode = ControlMode::Off};
     double frame_rate_hz_ = 0;
     std::uint64_t revision_ = 0; ///< of the regions that the scope is of
+    ControlScope scope_;
     std::unique_ptr<Controller> controller_;
     std::optional<Detail> decided_;
     std::uint64_t decisions_ = 0;

@@ -142,7 +142,7 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     steering_->add_work(*snapshot, took.step_ms + took.encode_ms);
     summary.add(*snapshot, took.step_ms);
     new_second_ = meter.add(end, took.step_ms, snapshot->profile);
-    const Regulator::Report regulation = steering_->regulation();
+    const ControlReport regulation = steering_->regulation();
     if (each_frame_)
         each_frame_(*snapshot, took, regulation);
     if (new_second_)

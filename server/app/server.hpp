@@ -23,10 +23,10 @@ class Server {
 public:
     /// Told once a second, between frames, how the run goes.
     using EachSecond =
-        std::function<void(const Snapshot&, const LoopMeans&, const Plan&, const Regulator::Report&)>;
+        std::function<void(const Snapshot&, const LoopMeans&, const Plan&, const ControlReport&)>;
 
     /// Told after each frame what it took.
-    using EachFrame = std::function<void(const Snapshot&, const FrameTime&, const Regulator::Report&)>;
+    using EachFrame = std::function<void(const Snapshot&, const FrameTime&, const ControlReport&)>;
 
     /// Who is told of what.
     struct Listeners {

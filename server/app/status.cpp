@@ -52,7 +52,7 @@ std::string speed_text(double real_time_factor)
 }
 
 /// Of the background, where a controller turns it: " of 23.5, holding".
-std::string size_text(const Snapshot& snapshot, const Regulator::Report& regulation)
+std::string size_text(const Snapshot& snapshot, const ControlReport& regulation)
 {
     if (regulation.state == ControlState::Off)
         return {};
@@ -63,7 +63,7 @@ std::string size_text(const Snapshot& snapshot, const Regulator::Report& regulat
 } // namespace
 
 std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                        const Regulator::Report& regulation)
+                        const ControlReport& regulation)
 {
     return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}  {:.1f} ms:{}",
                        snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
@@ -72,7 +72,7 @@ std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const 
 }
 
 std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                          const Regulator::Report& regulation)
+                          const ControlReport& regulation)
 {
     return fmt::format(
         "status frame={} time={:.6g} frame_rate_hz={:.1f} real_time_factor={:.4g} particles={} "
@@ -84,7 +84,7 @@ std::string status_record(const Snapshot& snapshot, const LoopMeans& means, cons
 }
 
 void StatusDisplay::update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                           const Regulator::Report& regulation)
+                           const ControlReport& regulation)
 {
     ++seconds_;
     if (logging_.on_terminal())

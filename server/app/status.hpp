@@ -4,7 +4,7 @@
 
 #include "app/log.hpp"
 #include "app/loop_meter.hpp"
-#include "app/regulator.hpp"
+#include "control/controller.hpp"
 #include "sim/plan.hpp"
 #include "sim/snapshot.hpp"
 
@@ -12,11 +12,11 @@ namespace slod {
 
 /// One line for people: frame, rates, sizes and the milliseconds of the longest phases, longest first.
 std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                        const Regulator::Report& regulation);
+                        const ControlReport& regulation);
 
 /// The same as key=value, for a log.
 std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                          const Regulator::Report& regulation);
+                          const ControlReport& regulation);
 
 /// Shows how the run goes: on a terminal every second in place, elsewhere a log line every few seconds.
 class StatusDisplay {
@@ -26,7 +26,7 @@ public:
 
     /// To be called once a second.
     void update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                const Regulator::Report& regulation);
+                const ControlReport& regulation);
 
 private:
     Logging& logging_;

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 
-#include "app/regulator.hpp"
+#include "app/line_file.hpp"
+#include "control/controller.hpp"
 #include "sim/snapshot.hpp"
 
 namespace slod {
@@ -20,22 +19,16 @@ struct FrameTime {
 class TraceWriter {
 public:
     /// Creates or empties the file. Throws std::system_error.
-    explicit TraceWriter(std::filesystem::path file);
+    explicit TraceWriter(const std::filesystem::path& file);
 
     /// Throws std::system_error.
-    void add(const Snapshot& snapshot, const FrameTime& took, const Regulator::Report& regulation);
+    void add(const Snapshot& snapshot, const FrameTime& took, const ControlReport& regulation);
 
     /// Writes what is still in memory. Throws std::system_error.
-    void finish();
+    void finish() { file_.flush(); }
 
 private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    void check(bool written) const;
-
-    std::filesystem::path place_;
-    std::unique_ptr<std::FILE, Close> file_;
+    LineFile file_;
 };
 
 } // namespace slod

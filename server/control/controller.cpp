@@ -1,9 +1,24 @@
 #include "control/controller.hpp"
 
+#include <algorithm>
+
 #include "control/paper_controller.hpp"
 #include "control/smooth_controller.hpp"
 
 namespace slod {
+
+SizeFactors size_factors(const ControlSettings& settings, const ControlScope& scope)
+{
+    return {.least = std::min(settings.smallest_cluster_size / scope.most_size, 1.0),
+            .most = std::max(settings.largest_cluster_size / scope.least_size, 1.0)};
+}
+
+Detail bounded(Detail detail, const ControlSettings& settings)
+{
+    detail.least_size = settings.smallest_cluster_size;
+    detail.most_size = settings.largest_cluster_size;
+    return detail;
+}
 
 std::unique_ptr<Controller> make_controller(const ControlSettings& settings, const ControlScope& scope,
                                             const Detail& detail)

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "control/settings.hpp"
-
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <string_view>
 
+#include "control/settings.hpp"
 #include "tree/detail.hpp"
 
 namespace slod {
@@ -15,8 +14,8 @@ namespace slod {
 struct FrameWork {
     double work_ms;   ///< step and encoding; one that is not above 0 and finite is not taken for a time
     double target_ms; ///< that it is to take; above 0
-    std::uint64_t particles, clusters;
-    double growth = 0; ///< particles born less those that died
+    std::uint64_t particles, clusters; ///< at its end
+    double growth = 0;                 ///< particles born less those that died
 };
 
 /// What there is to turn in a scene.
@@ -43,6 +42,24 @@ constexpr std::array<std::string_view, 5> names(ControlState)
 {
     return {"off", "holding", "adjusting", "finest", "unreachable"};
 }
+
+/// How a frame rate is held at present.
+struct ControlReport {
+    ControlMode mode = ControlMode::Off;
+    ControlState state = ControlState::Off;
+    double target_ms = 0;        ///< work that a frame is to take; 0: there is no controller
+    std::uint64_t decisions = 0; ///< changes of detail so far
+};
+
+/// Factors of all cluster sizes between which a controller may choose: where all regions have their smallest
+/// and where all have their largest clusters.
+struct SizeFactors {
+    double least, most;
+};
+SizeFactors size_factors(const ControlSettings& settings, const ControlScope& scope);
+
+/// The detail within the settings' bounds of cluster sizes.
+Detail bounded(Detail detail, const ControlSettings& settings);
 
 /// Decides on the level of detail, frame by frame, from the work of frames alone. Knows no clock and no
 /// simulation: the same works give the same decisions.

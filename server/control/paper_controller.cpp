@@ -8,10 +8,8 @@ namespace slod {
 
 PaperController::PaperController(const ControlSettings& settings, const ControlScope& scope,
                                  const Detail& detail)
-    : settings_(settings), scope_(scope), detail_(detail)
+    : settings_(settings), scope_(scope), detail_(bounded(detail, settings))
 {
-    detail_.least_size = settings.smallest_cluster_size;
-    detail_.most_size = settings.largest_cluster_size;
     detail_.dithered = false;
 }
 
@@ -47,11 +45,10 @@ Detail PaperController::next(const FrameWork& work)
 bool PaperController::turn_size(bool coarser)
 {
     const double before = detail_.cluster_size;
-    const double least = std::min(settings_.smallest_cluster_size / scope_.most_size, 1.0);
-    const double most = std::max(settings_.largest_cluster_size / scope_.least_size, 1.0);
+    const SizeFactors factors = size_factors(settings_, scope_);
     const double step = scope_.regions > 1 ? before * (coarser ? percent / 100 : -percent / (100 + percent))
                                            : (coarser ? 1 : -1) / scope_.most_size;
-    detail_.cluster_size = std::clamp(before + step, least, most);
+    detail_.cluster_size = std::clamp(before + step, factors.least, factors.most);
     return detail_.cluster_size != before;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "control/controller.hpp"
-
 #include <array>
+
+#include "control/controller.hpp"
 
 namespace slod {
 

@@ -38,11 +38,9 @@ const std::array<SmoothController::Lever, 3> SmoothController::levers{{
 
 SmoothController::SmoothController(const ControlSettings& settings, const ControlScope& scope,
                                    const Detail& detail)
-    : settings_(settings), scope_(scope), detail_(detail), output_(std::log(detail.cluster_size)),
-      lagged_(output_)
+    : settings_(settings), scope_(scope), detail_(bounded(detail, settings)),
+      output_(std::log(detail.cluster_size)), lagged_(output_)
 {
-    detail_.least_size = settings.smallest_cluster_size;
-    detail_.most_size = settings.largest_cluster_size;
     detail_.dithered = true;
 }
 
@@ -54,12 +52,12 @@ void SmoothController::set_scope(const ControlScope& scope)
 
 double SmoothController::least_output() const
 {
-    return std::log(std::min(settings_.smallest_cluster_size / scope_.most_size, 1.0));
+    return std::log(size_factors(settings_, scope_).least);
 }
 
 double SmoothController::most_output() const
 {
-    return std::log(std::max(settings_.largest_cluster_size / scope_.least_size, 1.0));
+    return std::log(size_factors(settings_, scope_).most);
 }
 
 Detail SmoothController::next(const FrameWork& work)

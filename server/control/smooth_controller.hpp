@@ -1,8 +1,8 @@
 #pragma once
 
-#include "control/controller.hpp"
-
 #include <array>
+
+#include "control/controller.hpp"
 
 namespace slod {
 
@@ -10,12 +10,10 @@ namespace slod {
 /// sizes; clusters follow that many frames later, but the work follows the clusters at once. So it
 ///
 ///  - says from the work and the clusters of the same frames which number of clusters would be right,
-///  whatever
-///    is still on its way;
-///  - and asks for the sizes at which there will be so many. How full clusters are, particles to maximum
-///  size,
-///    is learned while nothing changes: the integral part, which cannot wind up, as what it learns from is
-///    what there is. Where clusters do not follow they seem to be emptier, and it asks for more.
+///    whatever is still on its way;
+///  - and asks for the sizes at which there will be so many. How full clusters are is learned while nothing
+///    changes: the integral part, which cannot wind up, as what it learns from is what there is. Where
+///    clusters do not follow they seem to be emptier, and it asks for more.
 ///
 /// The work per cluster is a median over the last frames, of few where the error is large and of more where
 /// it is small: an outlier, or a clock that jumps, changes nothing. Within a band about the target the output

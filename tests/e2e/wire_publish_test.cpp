@@ -1,5 +1,3 @@
-#include "unit/wire_snapshots.hpp"
-
 #include <chrono>
 #include <signal.h>
 #include <stop_token>
@@ -9,6 +7,7 @@
 #include "app/publisher.hpp"
 #include "common/connection.hpp"
 #include "e2e/wire_support.hpp"
+#include "unit/wire_snapshots.hpp"
 
 // The publisher without a simulation, over loopback, read by the clients' own library.
 namespace slod {

@@ -2,8 +2,6 @@
 //   wire_source DOMAIN CLUSTERS FRAMES
 // offers FRAMES frames (0: for ever) of CLUSTERS clusters, thirty a second, and then none, until SIGTERM.
 
-#include "unit/wire_snapshots.hpp"
-
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 
 #include "app/publisher.hpp"
 #include "idl/stop_on_signal.hpp"
+#include "unit/wire_snapshots.hpp"
 
 namespace {
 

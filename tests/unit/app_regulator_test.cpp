@@ -50,7 +50,7 @@ TEST_F(Regulated, TheWorkComesToTheShareOfThePeriod)
 {
     run(300, loop(ControlMode::Smooth, 300));
     EXPECT_NEAR(double(simulation.snapshot({}).counts.clusters), 300, 15);
-    const Regulator::Report report = regulator.report();
+    const ControlReport report = regulator.report();
     EXPECT_EQ(report.mode, ControlMode::Smooth);
     EXPECT_EQ(report.state, ControlState::Holding);
     EXPECT_NEAR(report.target_ms, 300, 1e-9);
@@ -111,6 +111,23 @@ TEST_F(Regulated, RegionsThatComeAreHeldToo)
     ASSERT_EQ(editor.change(fine, frame + 1), Problems{});
     run(100, loop(ControlMode::Smooth, 400));
     EXPECT_EQ(simulation.snapshot({}).regions.front().max_cluster_size, 16);
+}
+
+// As one that follows a view does: further levers are turned after thirty frames in vain all the same.
+TEST_F(Regulated, ARegionThatMovesEveryFrameHoldsNothingUp)
+{
+    RegionOfInterest seen;
+    seen.name = "seen";
+    seen.shape = Shape::Sphere;
+    ASSERT_EQ(editor.add(seen, {}, 0, 1), Problems{});
+    LoopSettings hopeless = loop(ControlMode::Smooth, 0.01);
+    hopeless.control.largest_cluster_size = 64;
+    for (int i = 0; i < 400; ++i) {
+        seen.centre.x() = 1e-3 * i;
+        ASSERT_EQ(editor.change(seen, frame + 1), Problems{});
+        run(1, hopeless);
+    }
+    EXPECT_GT(simulation.detail().breadth, 1);
 }
 
 TEST(Regulator, LeavesASceneThatWasPlannedWithoutClustersAlone)

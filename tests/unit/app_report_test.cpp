@@ -181,8 +181,7 @@ TEST(Status, IsReadableForPeopleAndForPrograms)
 
 TEST(Status, SaysHowTheFrameRateIsHeldWhereAnythingHoldsIt)
 {
-    const Regulator::Report held{
-        .mode = ControlMode::Smooth, .state = ControlState::Holding, .target_ms = 26};
+    const ControlReport held{.mode = ControlMode::Smooth, .state = ControlState::Holding, .target_ms = 26};
     EXPECT_NE(status_line(snapshot(8, 0), {}, {}, held).find("20 clusters of 23.5, holding"),
               std::string::npos);
     EXPECT_NE(status_record(snapshot(8, 0), {}, {}, held).find(" max_cluster_size=23.5 control=holding "),
