@@ -1,7 +1,6 @@
 #include "arguments/server_choice.hpp"
 
 #include "arguments/parsing.hpp"
-
 #include "common/waiting.hpp"
 
 namespace slod::client {

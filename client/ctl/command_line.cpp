@@ -1,11 +1,10 @@
 #include "ctl/command_line.hpp"
 
-#include "arguments/parsing.hpp"
-
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "arguments/parsing.hpp"
 #include "ctl/commands.hpp"
 #include "idl/version.hpp"
 

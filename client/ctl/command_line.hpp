@@ -1,12 +1,11 @@
 #pragma once
 
-#include "arguments/server_choice.hpp"
-
 #include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "arguments/server_choice.hpp"
 #include "common/commander.hpp"
 #include "common/exit_code.hpp"
 

@@ -1,11 +1,10 @@
 #include "ctl/commands.hpp"
 
-#include "arguments/parsing.hpp"
-
 #include <array>
 
 #include <CLI/CLI.hpp>
 
+#include "arguments/parsing.hpp"
 #include "ctl/declarations.hpp"
 
 namespace slod::ctl {

@@ -1,7 +1,5 @@
 #include "ctl/declarations.hpp"
 
-#include "arguments/parsing.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -12,6 +10,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+
+#include "arguments/parsing.hpp"
 
 namespace slod::ctl {
 

@@ -1,11 +1,10 @@
 #include "stress/options.hpp"
 
-#include "arguments/parsing.hpp"
-
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
+#include "arguments/parsing.hpp"
 #include "idl/version.hpp"
 
 namespace slod::stress {

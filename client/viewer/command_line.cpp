@@ -1,7 +1,5 @@
 #include "viewer/command_line.hpp"
 
-#include "arguments/parsing.hpp"
-
 #include <charconv>
 #include <cstdio>
 #include <stdexcept>
@@ -10,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "arguments/parsing.hpp"
 #include "idl/version.hpp"
 #include "viewer/camera_file.hpp"
 

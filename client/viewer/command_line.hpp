@@ -1,13 +1,12 @@
 #pragma once
 
-#include "arguments/server_choice.hpp"
-
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
 
+#include "arguments/server_choice.hpp"
 #include "common/exit_code.hpp"
 #include "view/camera.hpp"
 #include "view/colour_scale.hpp"

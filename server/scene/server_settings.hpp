@@ -1,11 +1,10 @@
 #pragma once
 
-#include "control/settings.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string_view>
 
+#include "control/settings.hpp"
 #include "core/settings.hpp"
 
 namespace slod {

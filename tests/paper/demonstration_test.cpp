@@ -1,5 +1,3 @@
-#include "control/controller.hpp"
-
 #include <cmath>
 #include <memory>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "control/controller.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 

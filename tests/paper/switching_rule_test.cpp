@@ -1,6 +1,3 @@
-#include "control/controller.hpp"
-#include "control/paper_controller.hpp"
-
 #include <array>
 #include <cmath>
 #include <memory>
@@ -8,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "control/controller.hpp"
+#include "control/paper_controller.hpp"
 #include "tree/detail.hpp"
 
 /// O'Brien et al. 2001, sections 5.2 and 6.1: the rule by which the maximum cluster size follows the frame

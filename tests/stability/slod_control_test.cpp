@@ -1,10 +1,9 @@
-#include "control/controller.hpp"
-
 #include <cmath>
 #include <memory>
 
 #include <gtest/gtest.h>
 
+#include "control/controller.hpp"
 #include "core/random.hpp"
 #include "sim/simulation.hpp"
 #include "support/drifting_cloud.hpp"

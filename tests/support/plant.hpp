@@ -1,11 +1,10 @@
 #pragma once
 
-#include "control/controller.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "control/controller.hpp"
 #include "core/random.hpp"
 
 namespace slod::test {

@@ -1,5 +1,3 @@
-#include "unit/command_desk_fixture.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "unit/command_desk_fixture.hpp"
 
 namespace slod {
 namespace {

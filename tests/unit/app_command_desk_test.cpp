@@ -1,5 +1,3 @@
-#include "unit/command_desk_fixture.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <limits>
@@ -8,6 +6,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "unit/command_desk_fixture.hpp"
 
 namespace slod {
 namespace {

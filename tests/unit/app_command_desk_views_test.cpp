@@ -1,9 +1,9 @@
-#include "unit/command_desk_fixture.hpp"
-
 #include <limits>
 #include <utility>
 
 #include <gtest/gtest.h>
+
+#include "unit/command_desk_fixture.hpp"
 
 namespace slod {
 namespace {

@@ -1,6 +1,3 @@
-#include "arguments/parsing.hpp"
-#include "arguments/server_choice.hpp"
-
 #include <chrono>
 #include <optional>
 #include <stop_token>
@@ -9,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "arguments/parsing.hpp"
+#include "arguments/server_choice.hpp"
 #include "common/waiting.hpp"
 
 namespace slod::client {

@@ -1,5 +1,3 @@
-#include "control/controller.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "control/controller.hpp"
 #include "support/plant.hpp"
 
 namespace slod::test {

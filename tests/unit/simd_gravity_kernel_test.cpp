@@ -1,10 +1,10 @@
-#include "unit/simd_gravity_support.hpp"
-
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "unit/simd_gravity_support.hpp"
 
 namespace slod::simd {
 namespace {

@@ -1,9 +1,9 @@
-#include "unit/simd_gravity_support.hpp"
-
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "unit/simd_gravity_support.hpp"
 
 namespace slod::simd {
 namespace {

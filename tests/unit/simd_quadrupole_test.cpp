@@ -1,5 +1,3 @@
-#include "unit/simd_gravity_support.hpp"
-
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -9,6 +7,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "unit/simd_gravity_support.hpp"
 
 // The kernels of nodes with second moments. What they share with those of points is tested with those.
 namespace slod::simd {
