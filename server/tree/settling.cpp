@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <numeric>
-#include <utility>
+#include <compare>
+#include <span>
+#include <vector>
 
 #include "core/parallel.hpp"
 #include "tree/slod_tree.hpp"
@@ -11,6 +12,14 @@ namespace {
 bool meet(const Box& a, const Box& b)
 {
     return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+}
+
+/// Those of the changes that meet the box, put in front.
+std::span<Box> meeting(std::span<Box> changes, const Box& box)
+{
+    const auto met =
+        std::partition(changes.begin(), changes.end(), [&](const Box& change) { return meet(change, box); });
+    return {changes.begin(), met};
 }
 
 /// Places that changed hands.
@@ -27,83 +36,148 @@ std::vector<Box> changed_places(const SlodTree& tree)
     return places;
 }
 
-/// Renews what depends on the regions in one subtree, wherever a place changed hands: from the roots down,
-/// each node with those changes alone that meet its box.
+/// A cell of a subtree.
+struct CellRoot {
+    RegionRow row;
+    NodeId node;
+
+    friend constexpr auto operator<=>(const CellRoot&, const CellRoot&) = default;
+};
+
+/// Renews what depends on the regions, wherever a place changed hands. The cells of all subtrees are halved,
+/// as in a k-d tree, and each half, cell and node is compared with those changes alone that meet the one
+/// above: what it costs is what each change meets, by their logarithms, however many regions changed.
 class Renewal {
 public:
-    Renewal(const SlodTree& tree, Subtree& subtree, std::vector<Box> changes)
-        : tree_(tree), subtree_(subtree), changes_(std::move(changes)),
-          everywhere_(tree.regions[subtree.region].laid_anew)
-    {}
+    explicit Renewal(SlodTree& tree) : tree_(tree) {}
 
     /// Returns how often a box was compared with a change.
-    std::uint64_t run()
+    std::uint64_t run(std::vector<Box> changes)
     {
-        for (const NodeId root : roots())
-            descend(root, changes_.size());
-        return compared_;
+        std::vector<CellRoot> roots;
+        for (const Subtree& subtree : tree_.subtrees)
+            append_roots(subtree, changes, roots);
+        return halve(roots, changes);
     }
 
 private:
-    /// Cells to look at: where changes are small those that they may meet, else all.
-    std::vector<NodeId> roots() const
-    {
-        std::vector<NodeId> found;
-        const auto looked_up = [&](const Box& change) { return look_up(change, found); };
-        if (everywhere_ || !std::all_of(changes_.begin(), changes_.end(), looked_up)) {
-            found.clear();
-            subtree_.cells.for_each([&](const Cell&, NodeId root) { found.push_back(root); });
-        }
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
-        return found;
-    }
+    /// Changes that cells are compared with one by one.
+    static constexpr std::size_t few = 4;
+    /// Cells that are worth a thread.
+    static constexpr std::size_t many = 1024;
 
-    /// Adds the cells that the change may meet, unless it spans more than there are, or cells have bins.
-    bool look_up(const Box& change, std::vector<NodeId>& found) const
+    /// Adds the cells that the changes may meet: by looking into all where those span more than there are,
+    /// and where cells have bins.
+    void append_roots(const Subtree& subtree, std::span<const Box> changes,
+                      std::vector<CellRoot>& roots) const
     {
-        const Cell first = cell_of(subtree_, change.lower), last = cell_of(subtree_, change.upper);
-        const auto width = [](std::int32_t from, std::int32_t to) {
-            return std::max(double(to) - from + 2, 0.0);
+        double spanned = 0;
+        const auto spans_too_many = [&](const Box& change) {
+            const Cell first = first_cell(subtree, change), last = cell_of(subtree, change.upper);
+            const auto width = [](std::int32_t from, std::int32_t to) {
+                return std::max(double(to) - from + 1, 0.0);
+            };
+            spanned += width(first.x, last.x) * width(first.y, last.y) * width(first.z, last.z);
+            return spanned > double(subtree.cells.size());
         };
-        if (subtree_.settings.bin_by != BinBy::None ||
-            width(first.x, last.x) * width(first.y, last.y) * width(first.z, last.z) >
-                double(subtree_.cells.size()))
-            return false;
-        for (std::int32_t x = first.x - 1; x <= last.x; ++x) // the one before may touch it
-            for (std::int32_t y = first.y - 1; y <= last.y; ++y)
-                for (std::int32_t z = first.z - 1; z <= last.z; ++z)
-                    if (const NodeId root = subtree_.cells.find({x, y, z}); root.valid())
-                        found.push_back(root);
-        return true;
-    }
-
-    /// `near`: so many of the changes, the first ones, may meet the node's box.
-    void descend(NodeId id, std::size_t near)
-    {
-        Node& node = subtree_.nodes[id.index];
-        const auto begin = changes_.begin(), end = begin + std::ptrdiff_t(near);
-        const auto met =
-            std::partition(begin, end, [&](const Box& change) { return meet(change, node.box); });
-        compared_ += near;
-        const auto left = std::size_t(met - begin);
-        if (left == 0 && !everywhere_)
+        if (subtree.settings.bin_by != BinBy::None ||
+            std::any_of(changes.begin(), changes.end(), spans_too_many)) {
+            subtree.cells.for_each([&](const Cell&, NodeId root) {
+                roots.push_back({subtree.region, root});
+            });
             return;
-        node.contested = tree_.index.contested(node.box, subtree_.region);
-        if (!node.leaf()) {
-            descend(node.left, left);
-            descend(node.right(), left);
-        } else if (left > 0) {
-            subtree_.pools[node.pool.index].due_frame = 0;
         }
+        const auto own = std::ptrdiff_t(roots.size());
+        for (const Box& change : changes)
+            look_up(subtree, change, roots);
+        std::sort(roots.begin() + own, roots.end());
+        roots.erase(std::unique(roots.begin() + own, roots.end()), roots.end());
     }
 
-    const SlodTree& tree_;
-    Subtree& subtree_;
-    std::vector<Box> changes_;
-    bool everywhere_;
-    std::uint64_t compared_ = 0;
+    /// The cell before the one of the lower corner, as it may touch the change.
+    static Cell first_cell(const Subtree& subtree, const Box& change)
+    {
+        const Cell corner = cell_of(subtree, change.lower);
+        return {corner.x - 1, corner.y - 1, corner.z - 1};
+    }
+
+    static void look_up(const Subtree& subtree, const Box& change, std::vector<CellRoot>& roots)
+    {
+        const Cell first = first_cell(subtree, change), last = cell_of(subtree, change.upper);
+        for (std::int32_t x = first.x; x <= last.x; ++x)
+            for (std::int32_t y = first.y; y <= last.y; ++y)
+                for (std::int32_t z = first.z; z <= last.z; ++z)
+                    if (const NodeId root = subtree.cells.find({x, y, z}); root.valid())
+                        roots.push_back({subtree.region, root});
+    }
+
+    /// All the changes may meet the cells; re-orders both.
+    std::uint64_t halve(std::span<CellRoot> roots, std::span<Box> changes)
+    {
+        std::uint64_t compared = 0;
+        if (changes.size() <= few || roots.size() <= 1) {
+            for (const CellRoot& root : roots)
+                compared += descend(tree_.subtrees[root.row], root.node, changes);
+            return compared;
+        }
+        const Box box = box_around(roots);
+        const std::span<Box> met = meeting(changes, box);
+        compared += changes.size();
+        if (met.empty())
+            return compared;
+        const auto middle = roots.begin() + std::ptrdiff_t(roots.size() / 2);
+        const int axis = box.longest_side();
+        std::nth_element(roots.begin(), middle, roots.end(), [&](const CellRoot& a, const CellRoot& b) {
+            const double first = box_of(a).lower[axis], second = box_of(b).lower[axis];
+            return first != second ? first < second : a < b;
+        });
+        const std::span lower(roots.begin(), middle), upper(middle, roots.end());
+        if (roots.size() < many)
+            return compared + halve(lower, met) + halve(upper, met);
+        std::vector<Box> copy(met.begin(), met.end());
+        std::uint64_t below = 0, above = 0;
+        run_both([&] { below = halve(lower, met); }, [&] { above = halve(upper, copy); });
+        return compared + below + above;
+    }
+
+    /// Renews the node, and those below it, where the changes meet its box; re-orders the changes.
+    std::uint64_t descend(Subtree& subtree, NodeId id, std::span<Box> changes)
+    {
+        Node& node = subtree.nodes[id.index];
+        const std::span<Box> met = meeting(changes, node.box);
+        if (met.empty())
+            return changes.size();
+        node.contested = tree_.index.contested(node.box, subtree.region);
+        if (!node.leaf())
+            return changes.size() + descend(subtree, node.left, met) + descend(subtree, node.right(), met);
+        subtree.pools[node.pool.index].due_frame = 0;
+        return changes.size();
+    }
+
+    const Box& box_of(const CellRoot& root) const
+    {
+        return tree_.subtrees[root.row].nodes[root.node.index].box;
+    }
+
+    Box box_around(std::span<const CellRoot> roots) const
+    {
+        Box around = box_of(roots.front());
+        for (const CellRoot& root : roots) {
+            around.lower = around.lower.cwiseMin(box_of(root).lower);
+            around.upper = around.upper.cwiseMax(box_of(root).upper);
+        }
+        return around;
+    }
+
+    SlodTree& tree_;
 };
+
+/// Renews all marks of a subtree.
+void mark_all(const SlodTree& tree, Subtree& subtree)
+{
+    for (Node& node : subtree.nodes) // marks of free ones are written when they are taken
+        node.contested = tree.index.contested(node.box, subtree.region);
+}
 
 /// All pools of a region that is closed are due at once.
 void end_all_lives(Subtree& subtree)
@@ -137,17 +211,17 @@ std::vector<RegionIndex::Entry> by_precedence(const SlodTree& tree)
 std::uint64_t settle(SlodTree& tree)
 {
     tree.index.assign(by_precedence(tree));
-    const std::vector<Box> changes = changed_places(tree);
-    std::vector<std::uint64_t> compared(tree.subtrees.size());
     for_each_task(tree.subtrees.size(), [&](std::size_t row) {
-        compared[row] = Renewal(tree, tree.subtrees[row], changes).run();
+        if (tree.regions[row].laid_anew)
+            mark_all(tree, tree.subtrees[row]);
         if (!tree.regions[row].open)
             end_all_lives(tree.subtrees[row]);
     });
+    const std::uint64_t compared = Renewal(tree).run(changed_places(tree));
     for (SlodTree::Region& region : tree.regions)
         region.moved = region.laid_anew = false;
     tree.unsettled = false;
-    return std::accumulate(compared.begin(), compared.end(), std::uint64_t{0});
+    return compared;
 }
 
 } // namespace slod

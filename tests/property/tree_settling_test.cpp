@@ -113,5 +113,82 @@ TEST(Settling, ComparesFewNodesWithARegionThatIsSmall)
     }
 }
 
+RegionOfInterest ball_at(const Vector3d& centre)
+{
+    RegionOfInterest ball;
+    ball.shape = Shape::Sphere;
+    ball.centre = centre;
+    ball.radius = 1;
+    return ball;
+}
+
+/// The crowded world with a thousand balls that share its particles, in grids of their own.
+struct BallPit {
+    static constexpr std::size_t balls = 1000;
+
+    BallPit()
+    {
+        Random random(5, 8, 0);
+        for (std::size_t i = 0; i < balls; ++i) {
+            regions.push_back(ball_at(test::random_point(random, 8)));
+            regions.back().partition.max_breadth = 0.5;
+            rows.push_back(open_region(world.tree, regions.back()));
+        }
+        settle(world.tree);
+        UpdateCounts counts;
+        Regrouping({}, world.context(8)).update(world.tree, 9, counts);
+    }
+
+    void move(std::size_t ball)
+    {
+        regions[ball].centre.x() += 0.1;
+        change_region(world.tree, rows[ball], regions[ball], world.store.clusters);
+    }
+
+    test::World world = crowded_world(1);
+    std::vector<RegionOfInterest> regions;
+    std::vector<RegionRow> rows;
+};
+
+// What a change is compared with does not depend on the others, but that few of them are not worth halving
+// the cells for: so the cost of many is at most in proportion. If each were compared with each region's
+// cells, a thousand would cost a hundred times a hundred.
+TEST(Settling, CostsInProportionToTheRegionsThatMove)
+{
+    BallPit pit;
+    std::vector<std::uint64_t> compared;
+    for (const std::size_t moving : {10U, 100U, 1000U}) {
+        for (std::size_t ball = 0; ball < moving; ++ball)
+            pit.move(ball);
+        compared.push_back(settle(pit.world.tree));
+    }
+    EXPECT_LT(compared[1], 11 * compared[0]);
+    EXPECT_LT(compared[2], 11 * compared[1]);
+}
+
+// Two boxes, where it was and where it is, are compared with each node and each half of the cells, of which
+// there are as many as nodes at most; where they make few changes more than few, small ones are too: half as
+// much again.
+TEST(Settling, ComparesEachNodeOnceWithARegionThatIsEverywhereAmongManySmallOnes)
+{
+    BallPit pit;
+    std::size_t nodes = 0;
+    for (const Subtree& subtree : pit.world.tree.subtrees)
+        nodes += nodes_in_use(subtree);
+    for (std::size_t ball = 0; ball < pit.balls; ++ball)
+        pit.move(ball);
+    const std::uint64_t small = settle(pit.world.tree);
+    RegionOfInterest large = ball_at({0, 0, 0});
+    large.radius = 100;
+    const RegionRow row = open_region(pit.world.tree, large);
+    settle(pit.world.tree);
+    for (std::size_t ball = 0; ball < pit.balls; ++ball)
+        pit.move(ball);
+    large.centre.x() += 0.25;
+    change_region(pit.world.tree, row, large, pit.world.store.clusters);
+    const std::uint64_t both = settle(pit.world.tree);
+    EXPECT_LT(both, small + 6 * nodes);
+}
+
 } // namespace
 } // namespace slod
