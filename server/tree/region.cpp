@@ -195,6 +195,25 @@ bool RegionTest::covers(const Box& box) const
     return false;
 }
 
+double greatest_width(const RegionOfInterest& region)
+{
+    switch (region.shape) {
+    case Shape::Everywhere:
+        return unlimited;
+    case Shape::Box:
+        return 2 * region.half_extent.maxCoeff();
+    case Shape::Sphere:
+        return 2 * region.radius;
+    case Shape::Frustum: {
+        // Between opposite corners of its far face, or from one of them to the eye.
+        const Sight sight = sight_of(region);
+        const double across = sight.rise * sight.rise + sight.width * sight.width;
+        return region.far_distance * std::sqrt(std::max(4 * across, 1 + across));
+    }
+    }
+    return unlimited;
+}
+
 bool may_overlap(const RegionOfInterest& a, const RegionOfInterest& b)
 {
     const Box first = RegionTest(a).bounds(), second = RegionTest(b).bounds();

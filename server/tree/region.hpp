@@ -108,6 +108,10 @@ private:
     double least_mass_, most_mass_, least_speed_, most_speed_, least_acceleration_, most_acceleration_;
 };
 
+/// The largest extent that the region's shape has along an axis, however it is turned and wherever it is:
+/// scene length, infinite where the shape is.
+double greatest_width(const RegionOfInterest& region);
+
 /// What is wrong with a region, each with the key in front.
 Problems problems(const RegionOfInterest& region);
 

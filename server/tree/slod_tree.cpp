@@ -21,11 +21,23 @@ double cell_side_of(const SlodTree& tree, const RegionOfInterest& region, double
 {
     if (std::isfinite(max_breadth))
         return max_breadth;
-    const double width = RegionTest(region).bounds().size().maxCoeff();
+    const double width = greatest_width(region);
     constexpr double widest = 1e300; // whose power of two is a number yet
     if (width > widest)
         return tree.subtrees[background_row].cell_side;
     return width > 0 ? std::ldexp(1.0, std::ilogb(width) + 1) : 1.0;
+}
+
+/// The same for a region that has cells already: where only its width asks for others, a factor of two is not
+/// worth them.
+double next_cell_side(const SlodTree& tree, RegionRow row, const RegionOfInterest& region, double max_breadth)
+{
+    const double present = tree.subtrees[row].cell_side;
+    if (std::isfinite(max_breadth))
+        return max_breadth;
+    const double wanted = cell_side_of(tree, region, max_breadth);
+    const bool near = present <= 2 * wanted && wanted <= 2 * present;
+    return row == background_row || near ? present : wanted;
 }
 
 bool same_cells(const Subtree& subtree, const RegionSettings& settings, double cell_side)
@@ -59,8 +71,7 @@ void partition(SlodTree& tree, RegionRow row, const RegionOfInterest& region, Cl
     Subtree& subtree = tree.subtrees[row];
     const RegionSettings settings = at_detail(region.partition, tree.detail);
     subtree.dithered = tree.detail.dithered;
-    const bool keeps_side = row == background_row && !std::isfinite(settings.max_breadth);
-    const double side = keeps_side ? subtree.cell_side : cell_side_of(tree, region, settings.max_breadth);
+    const double side = next_cell_side(tree, row, region, settings.max_breadth);
     if (same_cells(subtree, settings, side)) {
         subtree.settings = settings;
     } else {

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "support/clouds.hpp"
+#include "support/little_worlds.hpp"
 #include "support/random_regions.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -124,6 +127,60 @@ TEST(SlodTree, TakesEveryRegionThatHasNoProblemsHoweverExtremeItsNumbers)
         }
     }
     EXPECT_GT(taken, 100);
+}
+
+/// Moves a region of a tree with some clusters from pose to pose; returns how many were put into cells anew.
+template <class Pose>
+std::uint64_t reinserted_by(RegionOfInterest region, const Pose& pose)
+{
+    test::World world({MapKind::Identity, 0, 1}, {}, {}, 16);
+    const RegionRow row = open_region(world.tree, region);
+    settle(world.tree);
+    for (const Particle& particle : test::cube(100, 8, 1)) {
+        const ClusterSlot slot = test::form(world.store, {particle});
+        const PoolId pool = locate_or_grow(world.tree.subtrees[row], particle.position);
+        link(world.tree.subtrees[row], world.store.clusters, pool, slot);
+    }
+    for (int i = 0; i < 360; ++i) {
+        pose(region, i);
+        change_region(world.tree, row, region, world.store.clusters);
+    }
+    return world.tree.reinserted;
+}
+
+// The box around it goes from 1.45 to 2.05 times its depth and back, across a power of two for every other
+// depth.
+TEST(SlodTree, KeepsItsCellsWhileAFrustumTurns)
+{
+    const auto turned = [](RegionOfInterest& region, int degree) {
+        const double angle = degree * std::numbers::pi / 180;
+        region.direction = {std::cos(angle), 0.3 * std::sin(3 * angle), std::sin(angle)};
+    };
+    for (const double depth : {4.0, 5.0, 6.0, 7.0}) {
+        RegionOfInterest region;
+        region.shape = Shape::Frustum;
+        region.far_distance = depth;
+        EXPECT_EQ(reinserted_by(region, turned), 0U) << depth;
+    }
+}
+
+// (x + h) - (x - h) is not 2 h for every x, and 2 h here is a power of two.
+TEST(SlodTree, KeepsItsCellsWhileABoxMoves)
+{
+    const auto moved = [](RegionOfInterest& region, int i) { region.centre.x() = 0.1 * i - 18; };
+    RegionOfInterest region;
+    region.shape = Shape::Box;
+    region.half_extent = {4, 1, 1};
+    EXPECT_EQ(reinserted_by(region, moved), 0U);
+}
+
+TEST(SlodTree, LaysCellsAnewOnceWhereARegionGrowsFourfold)
+{
+    const auto grown = [](RegionOfInterest& region, int i) { region.radius = 3 * (1 + i / 120.0); };
+    RegionOfInterest region;
+    region.shape = Shape::Sphere;
+    region.radius = 3;
+    EXPECT_EQ(reinserted_by(region, grown), 100U);
 }
 
 TEST(RegionIndex, FindsWhatALookAtAllRegionsFinds)
