@@ -35,7 +35,7 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 21> event_counts{{
+inline constexpr std::array<EventCount, 22> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -51,6 +51,7 @@ inline constexpr std::array<EventCount, 21> event_counts{{
     {"reinserted", &FrameCounts::reinserted},
     {"splits", &FrameCounts::splits},
     {"merges", &FrameCounts::merges},
+    {"split_keys", &FrameCounts::split_keys},
     {"pair_tests", &FrameCounts::pair_tests},
     {"nodes_searched", &FrameCounts::nodes_searched},
     {"boundary_tests", &FrameCounts::boundary_tests},

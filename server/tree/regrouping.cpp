@@ -29,8 +29,10 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
     targets_.reserve(clusters);
     searches_.reserve(clusters / block + 1);
     pairing_.reserve(clusters);
+    split_memory_.reserve(clusters);
+    revisions_.reserve(tree.subtrees.size());
     held_.reserve(context_.store.clusters.columns.withheld ? clusters : 0);
-    for (auto* list : {&crossing_, &splitting_, &merging_pairs_, &by_position_})
+    for (auto* list : {&crossing_, &splitting_, &merging_pairs_})
         list->reserve(clusters);
 }
 
@@ -40,7 +42,7 @@ void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& count
     plan(tree, counts);
     move_crossing(tree, counts);
     split(tree, counts);
-    revise(tree);
+    revise(tree, counts);
     const auto grow = [](const Subtree& subtree) { return subtree.growth_limit() > 1; };
     if (tree.merging && std::any_of(tree.subtrees.begin(), tree.subtrees.end(), grow))
         merge(tree, counts);
@@ -277,48 +279,41 @@ void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
     counts.reformed_members += first;
 }
 
-/// Keeps the k-d trees as fine as the clusters ask for (section 4.2): a pool in its turn, and at once where a
-/// region has come or changed its cells and its clusters are all in a few leaves.
-void Regrouping::revise(SlodTree& tree)
+/// Keeps the k-d trees as fine as the clusters ask for (section 4.2), each subtree for itself.
+void Regrouping::revise(SlodTree& tree, UpdateCounts& counts)
 {
-    for (Subtree& subtree : tree.subtrees) {
-        const auto least = std::uint32_t(sparse * subtree.pool_limit());
-        const double flood = flooded * subtree.pool_limit();
-        for (std::uint32_t pool = 0; pool < subtree.pools.size(); ++pool) { // grows
-            const bool turn = (pool + context_.frame) % revision_period == 0;
-            if (!subtree.pools[pool].node.valid() || (!turn && subtree.pools[pool].members <= flood))
-                continue;
-            if (subtree.pools[pool].members < least)
-                prune(subtree, context_.store.clusters, {pool}, least);
-            else
-                expand_crowded(subtree, {pool});
-        }
+    revisions_.resize(tree.subtrees.size());
+    std::size_t clusters = 0;
+    for (const Subtree& subtree : tree.subtrees) {
+        Revision& revision = revisions_[subtree.region];
+        revision = {.first = clusters};
+        for (const Pool& pool : subtree.pools)
+            revision.clusters += pool.node.valid() ? pool.clusters : 0;
+        clusters += revision.clusters;
     }
+    split_memory_.resize(clusters);
+    for_each_task(tree.subtrees.size(),
+                  [&](std::size_t row) { revise(tree.subtrees[row], revisions_[row]); });
+    for (const Revision& revision : revisions_)
+        counts.split_keys += revision.keys;
 }
 
-/// Splits the pool's leaf at the median of its members, taken at their clusters' centres, and both sides on,
-/// until none is crowded. The tree's depth is bounded, and so is the recursion.
-void Regrouping::expand_crowded(Subtree& tree, PoolId pool)
+/// A pool in its turn, and at once where a region has come or changed its cells and its clusters are all in a
+/// few leaves.
+void Regrouping::revise(Subtree& subtree, Revision& revision)
 {
     ClusterTable& clusters = context_.store.clusters;
-    const double limit = crowded * tree.pool_limit();
-    while (tree.pools[pool.index].members > limit && tree.pools[pool.index].clusters > 1 &&
-           can_expand(tree, pool)) {
-        const Box box = tree.nodes[tree.pools[pool.index].node.index].box;
-        const int axis = box.longest_side();
-        by_position_.clear();
-        for (ClusterSlot slot = tree.pools[pool.index].first; slot.valid(); slot = clusters.next[slot.index])
-            by_position_.push_back(slot);
-        const auto coordinate = [&](ClusterSlot slot) { return clusters.position[slot.index][axis]; };
-        std::sort(by_position_.begin(), by_position_.end(), [&](ClusterSlot a, ClusterSlot b) {
-            return coordinate(a) != coordinate(b) ? coordinate(a) < coordinate(b) : a < b;
-        });
-        std::uint32_t below = 0;
-        auto median = by_position_.begin();
-        while (2 * below < tree.pools[pool.index].members && median + 1 != by_position_.end())
-            below += clusters.count[(median++)->index];
-        const double position = split_position(box, axis, coordinate(*median));
-        expand_crowded(tree, expand(tree, clusters, pool, axis, position));
+    const auto least = std::uint32_t(sparse * subtree.pool_limit());
+    const double flood = flooded * subtree.pool_limit(), most = crowded * subtree.pool_limit();
+    const SplitScratch scratch = split_memory_.slice(revision.first, revision.clusters);
+    for (std::uint32_t pool = 0; pool < subtree.pools.size(); ++pool) { // grows
+        const bool turn = (pool + context_.frame) % revision_period == 0;
+        if (!subtree.pools[pool].node.valid() || (!turn && subtree.pools[pool].members <= flood))
+            continue;
+        if (subtree.pools[pool].members < least)
+            prune(subtree, clusters, {pool}, least);
+        else
+            revision.keys += expand_crowded(subtree, clusters, {pool}, most, scratch);
     }
 }
 

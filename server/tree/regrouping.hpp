@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cluster/motion.hpp"
+#include "tree/crowded.hpp"
 #include "tree/grouping.hpp"
 #include "tree/pairing.hpp"
 #include "tree/slod_tree.hpp"
@@ -46,6 +47,12 @@ private:
         std::uint64_t nodes = 0, tests = 0;
     };
 
+    /// One subtree's share of the memory to split leaves with, and what was looked at there.
+    struct Revision {
+        std::size_t first = 0, clusters = 0;
+        std::uint64_t keys = 0;
+    };
+
     void plan(const SlodTree& tree, UpdateCounts& counts);
     Action action(const SlodTree& tree, std::size_t slot, Search& search);
     bool crosses(const SlodTree& tree, std::size_t slot, Search& search);
@@ -58,8 +65,8 @@ private:
     void dissolve_splitting(SlodTree& tree);
     void form_dissolved(SlodTree& tree, Vector3d Particle::*key);
     void share_velocities();
-    void revise(SlodTree& tree);
-    void expand_crowded(Subtree& tree, PoolId pool);
+    void revise(SlodTree& tree, UpdateCounts& counts);
+    void revise(Subtree& subtree, Revision& revision);
 
     MergedVelocities merged_velocities_;
     UpdateContext context_;
@@ -70,7 +77,8 @@ private:
     std::vector<Search> searches_; ///< by block of slots
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
     std::vector<HeldVelocity> held_; ///< by cluster that is split, if any may hold one
-    std::vector<ClusterSlot> by_position_;
+    SplitMemory split_memory_;
+    std::vector<Revision> revisions_;      ///< by region
     std::vector<Vector3d> surroundings_;   ///< by region: what its velocities are relative to
     std::vector<std::uint64_t> in_region_; ///< particles, by region
 };

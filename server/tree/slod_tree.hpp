@@ -97,6 +97,7 @@ struct UpdateCounts {
     std::uint64_t reinserted = 0;       ///< clusters put into cells of another size or binning
     std::uint64_t splits = 0;           ///< clusters split for size, breadth or drift
     std::uint64_t merges = 0;
+    std::uint64_t split_keys = 0;     ///< clusters looked at for the medians that crowded leaves are split at
     std::uint64_t pair_tests = 0;     ///< candidates looked at for clusters that may merge
     std::uint64_t nodes_searched = 0; ///< k-d nodes looked at for clusters that left their leaf or region
     std::uint64_t boundary_tests = 0; ///< regions asked whether they hold a cluster

@@ -281,5 +281,48 @@ TEST(WiderThan, IsWhetherTheBreadthExceedsTheLimit)
     EXPECT_FALSE(wider_than(0.5, {}, 0));
 }
 
+// A median is found in n + n/2 + n/4 + ... looks. Each level of leaves has halves of the one above, which
+// come out alike up to the roots of their counts: two levels more than if to the last particle.
+TEST(Regrouping, ACrowdedPoolIsSplitWithALogarithmOfLooksAtEachCluster)
+{
+    for (const std::size_t count : {1000U, 10'000U, 100'000U}) {
+        test::World world(rigid, {}, {.max_cluster_size = 1}, 16);
+        for (const Particle& particle : test::cube(count, 8, 1, {8, 8, 8}))
+            world.add({particle});
+        Regrouping regrouping({}, world.context(0));
+        UpdateCounts counts;
+        regrouping.update(world.tree, 1, counts);
+        const double levels = std::log2(double(count) / 22) + 2;
+        EXPECT_LE(counts.split_keys, 2 * double(count) * levels) << count;
+        EXPECT_GT(world.region().pool_count(), count / 23);
+        for (const Pool& pool : world.region().pools)
+            ASSERT_LE(pool.members, 22U);
+        ASSERT_EQ(problems(world.tree, world.store.clusters), Problems{});
+    }
+}
+
+// One cluster of sixty-one particles and forty of one: half of the particles are in the first.
+TEST(Regrouping, ACrowdedPoolIsSplitAtTheMedianOfItsMembers)
+{
+    test::World world(rigid, {}, {.max_cluster_size = 64, .pool_factor = 1}, 16);
+    for (int i = 0; i < 40; ++i)
+        world.add({{.position = {8 + 0.1 * i, 8, 8},
+                    .velocity = {0, 0, 0},
+                    .id = std::uint64_t(i) + 1,
+                    .mass = 1}});
+    world.add(some(61, 0.01, {4, 8, 8}, 100));
+    Regrouping regrouping({}, world.context(0));
+    UpdateCounts counts;
+    for (std::uint64_t frame = 1; frame <= 8; ++frame)
+        regrouping.update(world.tree, frame, counts);
+    const Subtree& tree = world.region();
+    ASSERT_EQ(tree.pool_count(), 2U);
+    std::vector<std::uint32_t> members;
+    for (const Pool& pool : tree.pools)
+        members.push_back(pool.members);
+    std::sort(members.begin(), members.end());
+    EXPECT_EQ(members, (std::vector<std::uint32_t>{40, 61}));
+}
+
 } // namespace
 } // namespace slod
