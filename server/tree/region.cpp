@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -197,6 +198,16 @@ bool RegionTest::covers(const Box& box) const
 
 double greatest_width(const RegionOfInterest& region)
 {
+bool same_place(const RegionOfInterest& a, const RegionOfInterest& b)
+{
+    const auto place = [](const RegionOfInterest& r) {
+        return std::tie(r.precedence, r.shape, r.centre, r.half_extent, r.radius, r.direction, r.up,
+                        r.field_of_view_deg, r.aspect, r.near_distance, r.far_distance, r.least_mass,
+                        r.most_mass, r.least_speed, r.most_speed, r.least_acceleration, r.most_acceleration);
+    };
+    return place(a) == place(b);
+}
+
     switch (region.shape) {
     case Shape::Everywhere:
         return unlimited;

@@ -108,6 +108,10 @@ private:
     double least_mass_, most_mass_, least_speed_, most_speed_, least_acceleration_, most_acceleration_;
 };
 
+/// Whether both take the same clusters where nobody else does, and from the same others: they may differ in
+/// name, in parameters, and in whose view moves them.
+bool same_place(const RegionOfInterest& a, const RegionOfInterest& b);
+
 /// The largest extent that the region's shape has along an axis, however it is turned and wherever it is:
 /// scene length, infinite where the shape is.
 double greatest_width(const RegionOfInterest& region);

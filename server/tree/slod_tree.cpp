@@ -143,9 +143,7 @@ RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)
 void change_region(SlodTree& tree, RegionRow row, const RegionOfInterest& region, ClusterTable& clusters)
 {
     SLOD_ASSERT(row < tree.regions.size() && tree.regions[row].open);
-    RegionOfInterest same_place = region;
-    same_place.partition = tree.regions[row].settings.partition;
-    if (row != background_row && same_place != tree.regions[row].settings)
+    if (row != background_row && !same_place(region, tree.regions[row].settings))
         note_move(tree, row, RegionTest(tree.regions[row].settings).bounds());
     partition(tree, row, region, clusters);
     tree.regions[row].settings = region;

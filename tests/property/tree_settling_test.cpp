@@ -96,6 +96,24 @@ TEST(Settling, MarksWhatARegionMayReachAndEndsTheLivesWhereOneChanged)
     }
 }
 
+TEST(Settling, HasNothingToDoWhereARegionIsOnlyToFollowAnotherClient)
+{
+    test::World world = crowded_world(1);
+    RegionOfInterest region;
+    region.shape = Shape::Sphere;
+    const RegionRow row = open_region(world.tree, region);
+    settle(world.tree);
+    region.follows = "viewer-2";
+    region.view_share = 0.5;
+    region.partition.max_cluster_size = 3;
+    change_region(world.tree, row, region, world.store.clusters);
+    EXPECT_FALSE(world.tree.unsettled);
+    EXPECT_EQ(world.tree.regions[row].settings.follows, "viewer-2");
+    region.precedence += 1;
+    change_region(world.tree, row, region, world.store.clusters);
+    EXPECT_TRUE(world.tree.unsettled);
+}
+
 // A ball of radius 1/2 is in a few leaves of some 4000 / 16, and so in a few cells of side 1 of 4096.
 TEST(Settling, ComparesFewNodesWithARegionThatIsSmall)
 {
