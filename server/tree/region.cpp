@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/number_text.hpp"
 #include "core/portable_math.hpp"
 
 namespace slod {
@@ -75,8 +76,9 @@ struct RangeCheck {
     {
         const bool within = value >= field.minimum && value <= field.maximum;
         if (!within || (!field.infinity_allowed && std::isinf(value)))
-            found.push_back(std::string(field.key) + " = " + std::to_string(value) + " is out of range.");
+            found.push_back(std::string(field.key) + " = " + number_text(value) + " is out of range.");
     }
+    void operator()(const Field& field, std::int64_t value) const { (*this)(field, double(value)); }
     void operator()(const Field& field, const Vector3d& value) const
     {
         for (const double component : value)
@@ -196,8 +198,6 @@ bool RegionTest::covers(const Box& box) const
     return false;
 }
 
-double greatest_width(const RegionOfInterest& region)
-{
 bool same_place(const RegionOfInterest& a, const RegionOfInterest& b)
 {
     const auto place = [](const RegionOfInterest& r) {
@@ -208,6 +208,8 @@ bool same_place(const RegionOfInterest& a, const RegionOfInterest& b)
     return place(a) == place(b);
 }
 
+double greatest_width(const RegionOfInterest& region)
+{
     switch (region.shape) {
     case Shape::Everywhere:
         return unlimited;

@@ -75,6 +75,15 @@ TEST(RegionOfInterest, FollowsClientsWhoseNamesCanBePrinted)
     }
 }
 
+TEST(RegionOfInterest, IsRefusedWithTheNumberThatIsOutOfRange)
+{
+    RegionOfInterest region;
+    region.precedence = 2'000'000'000;
+    region.radius = -1e-31;
+    EXPECT_EQ(problems(region),
+              (Problems{"precedence = 2e+09 is out of range.", "radius = -1e-31 is out of range."}));
+}
+
 /// Sets the `wanted`-th of a region's numbers to one end of its range; false when there is none.
 struct Extreme {
     int wanted;
