@@ -129,14 +129,16 @@ void Reforming::start_lives(SlodTree& tree)
 std::uint64_t Reforming::wanted_life(const SlodTree& tree, const PoolRef& ref) const
 {
     const Pool& pool = tree.pool(ref);
-    if (pool.turn_frame == Pool::no_turn) // holds at most newborns, whose tides are not known yet
-        return motion_.shortest_life;
+    const bool first_turn = pool.turn_frame == Pool::no_turn;
     if (pool.members == 0)
-        return std::max<std::uint64_t>(pool.life(), motion_.shortest_life);
+        return first_turn ? motion_.shortest_life
+                          : std::max<std::uint64_t>(pool.life(), motion_.shortest_life);
     const ClusterTable& clusters = context_.store.clusters;
     double tide = 0;
     for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index])
         tide += clusters.count[slot.index] * clusters.tide[slot.index].matrix().norm();
+    if (first_turn && tide == 0) // of newborns none is known yet; pools that were laid anew hold others
+        return motion_.shortest_life;
     tide /= pool.members;
     const double ratio = motion_.clock / context_.step;
     std::uint64_t life = motion_.shortest_life;

@@ -168,3 +168,23 @@ TEST_F(ReformingTest, ClustersAreFormedWithRoomForStrays)
 
 } // namespace
 } // namespace slod
+// Tides of 1e-4 ask for lives of 0.2 / (0.01 sqrt(1e-4 sqrt(3))) = 1520 frames: the longest, of 64, in phase.
+TEST_F(ReformingTest, PoolsThatAreLaidAnewKeepTheLivesThatTheirTidesAskFor)
+{
+    reforming.found(world.tree, test::ball(1000, 6, 0, 1), 0);
+    for (Symmetric3& tide : world.store.clusters.tide)
+        tide = {.xx = 1e-4, .yy = 1e-4, .zz = 1e-4};
+    RegionOfInterest everywhere = world.tree.regions[background_row].settings;
+    everywhere.partition.bin_by = BinBy::Mass;
+    change_region(world.tree, background_row, everywhere, world.store.clusters);
+    ASSERT_EQ(world.tree.reinserted, world.store.clusters.alive_count());
+    reforming.update(world.tree, 64, counts);
+    std::uint64_t pools = 0, lives = 0;
+    for (const Pool& pool : world.region().pools) {
+        pools += pool.node.valid() && pool.members > 0 ? 1 : 0;
+        lives += pool.node.valid() && pool.members > 0 ? pool.life() : 0;
+    }
+    EXPECT_GT(pools, 30U);
+    EXPECT_GT(lives, 16 * pools); // they end at any of 64 frames to come
+}
+
