@@ -35,7 +35,7 @@ struct EventCount {
 
 /// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
 /// means nothing.
-inline constexpr std::array<EventCount, 22> event_counts{{
+inline constexpr std::array<EventCount, 23> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -47,6 +47,7 @@ inline constexpr std::array<EventCount, 22> event_counts{{
     {"reformed_members", &FrameCounts::reformed_members},
     {"strays_inserted", &FrameCounts::strays_inserted},
     {"strays_founding", &FrameCounts::strays_founding},
+    {"stray_tests", &FrameCounts::stray_tests},
     {"crossings", &FrameCounts::crossings},
     {"reinserted", &FrameCounts::reinserted},
     {"splits", &FrameCounts::splits},

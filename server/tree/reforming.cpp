@@ -290,14 +290,18 @@ void Reforming::place_strays(SlodTree& tree, UpdateCounts& counts)
                 arrivals_[group] = insert_strays(tree, groups[group]);
     });
     for (std::size_t group = 0; group < groups.size(); ++group) {
+        const Pool& pool = tree.pool(groups[group].pool);
+        if (due_now(pool))
+            continue;
+        const std::uint64_t strays = arrivals_[group] + groups[group].count;
         counts.strays_inserted += arrivals_[group];
-        if (!due_now(tree.pool(groups[group].pool)))
-            counts.strays_founding += groups[group].count;
+        counts.strays_founding += groups[group].count;
+        counts.stray_tests += strays * std::min(pool.clusters, most_candidates);
     }
 }
 
-/// Puts the group's particles into the nearest clusters of its pool, where they are near enough and have
-/// room; the others stay in the group. Returns how many found a place.
+/// Puts the group's particles into the nearest clusters of its pool, of the first so many, where they are
+/// near enough and have room; the others stay in the group. Returns how many found a place.
 std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
 {
     ClusterTable& clusters = context_.store.clusters;
@@ -309,7 +313,9 @@ std::uint32_t Reforming::insert_strays(SlodTree& tree, Grouping::Group& group)
         const Particle& stray = grouping_.particles[index];
         ClusterSlot nearest;
         double nearest_squared = 0;
-        for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index]) {
+        std::uint32_t candidates = 0;
+        for (ClusterSlot slot = pool.first; slot.valid() && candidates < most_candidates;
+             slot = clusters.next[slot.index], ++candidates) {
             const double squared = (stray.position - clusters.position[slot.index]).squaredNorm();
             if (!nearest.valid() || squared < nearest_squared) {
                 nearest = slot;

@@ -19,6 +19,10 @@ namespace slod {
 /// joins the nearest cluster, or founds one with the other strays.
 class Reforming {
 public:
+    /// Clusters of a pool that a stray is compared with: a bound for pools that cannot be divided however
+    /// many they hold; elsewhere few have so many.
+    static constexpr std::uint32_t most_candidates = 256;
+
     Reforming(const MotionSettings& motion, const UpdateContext& context);
 
     /// Takes another dynamical clock for the lives to come, in units of the local dynamical time.

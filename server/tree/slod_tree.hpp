@@ -93,6 +93,7 @@ struct UpdateCounts {
     std::uint64_t reformed_members = 0; ///< members mapped out and formed anew
     std::uint64_t strays_inserted = 0;  ///< re-formed members that joined a living cluster
     std::uint64_t strays_founding = 0;  ///< re-formed members that started a cluster in a pool not due
+    std::uint64_t stray_tests = 0;      ///< clusters that strays were compared with
     std::uint64_t crossings = 0;        ///< clusters that moved to another pool
     std::uint64_t reinserted = 0;       ///< clusters put into cells of another size or binning
     std::uint64_t splits = 0;           ///< clusters split for size, breadth or drift

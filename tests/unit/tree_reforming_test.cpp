@@ -121,6 +121,30 @@ TEST_F(StrayTest, FoundsOneWhereTheNearestHasNoRowLeft)
     EXPECT_EQ(world.store.clusters.count[host.index], 8U);
 }
 
+// A pool that cannot be divided: 10,000 clusters at one place, and 100 strays.
+TEST_F(ReformingTest, StraysLookAtSoManyClustersOfAPoolAtMost)
+{
+    constexpr std::uint32_t crowd = 10'000, strays = 100;
+    const Vector3d place(6, 2, 2);
+    for (std::uint64_t id = 1; id <= crowd; ++id)
+        world.add({{.position = place, .velocity = {0, 0, 0}, .id = id, .mass = 1}});
+    const PoolId pool = locate(world.region(), place);
+    world.region().pools[pool.index].turn_frame = 0;
+    world.region().pools[pool.index].due_frame = 50;
+    const PoolId due = locate_or_grow(world.region(), Vector3d(2, 2, 2));
+    for (std::uint64_t id = 1; id <= strays; ++id) {
+        const ClusterSlot visitor =
+            world.add({{.position = place, .velocity = {0, 0, 0}, .id = crowd + id, .mass = 1}});
+        unlink(world.region(), world.store.clusters, visitor);
+        link(world.region(), world.store.clusters, due, visitor);
+    }
+    world.region().pools[due.index].due_frame = 1;
+    reforming.update(world.tree, 1, counts);
+    EXPECT_EQ(counts.strays_inserted + counts.strays_founding, strays);
+    EXPECT_EQ(counts.stray_tests, std::uint64_t{strays} * Reforming::most_candidates);
+    EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
+}
+
 TEST_F(ReformingTest, WhatIsFormedAnewInheritsTheMeanPullOfItsMembers)
 {
     reforming.found(world.tree, test::ball(200, 0.9, 0, 1, {2, 2, 2}), 0);
@@ -156,18 +180,6 @@ TEST_F(ReformingTest, APoolOfNewbornsLivesShortlyUntilTheirTidesAreKnown)
     EXPECT_LE(pool.life(), 3U); // the shortest is 2, and ends at its multiples
 }
 
-TEST_F(ReformingTest, ClustersAreFormedWithRoomForStrays)
-{
-    reforming.found(world.tree, test::ball(1000, 3, 0, 1), 0);
-    const ClusterTable& clusters = world.store.clusters;
-    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
-        EXPECT_LE(clusters.count[slot], 14U); // of 16
-        EXPECT_GE(clusters.slab[slot].capacity, clusters.count[slot] + 2);
-    }
-}
-
-} // namespace
-} // namespace slod
 // Tides of 1e-4 ask for lives of 0.2 / (0.01 sqrt(1e-4 sqrt(3))) = 1520 frames: the longest, of 64, in phase.
 TEST_F(ReformingTest, PoolsThatAreLaidAnewKeepTheLivesThatTheirTidesAskFor)
 {
@@ -188,3 +200,15 @@ TEST_F(ReformingTest, PoolsThatAreLaidAnewKeepTheLivesThatTheirTidesAskFor)
     EXPECT_GT(lives, 16 * pools); // they end at any of 64 frames to come
 }
 
+TEST_F(ReformingTest, ClustersAreFormedWithRoomForStrays)
+{
+    reforming.found(world.tree, test::ball(1000, 3, 0, 1), 0);
+    const ClusterTable& clusters = world.store.clusters;
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
+        EXPECT_LE(clusters.count[slot], 14U); // of 16
+        EXPECT_GE(clusters.slab[slot].capacity, clusters.count[slot] + 2);
+    }
+}
+
+} // namespace
+} // namespace slod
