@@ -1,5 +1,7 @@
 #include "sim/integrator.hpp"
 
+#include <atomic>
+
 #include "core/parallel.hpp"
 
 namespace slod {
@@ -50,6 +52,19 @@ void propagate_clusters(ClusterTable& clusters, const Propagator& step)
                 propagate(clusters.map[slot], step);
         }
     });
+}
+
+bool all_finite(const ClusterTable& clusters)
+{
+    std::atomic<bool> finite{true};
+    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+        bool of_block = true;
+        for (std::size_t slot = first; slot < last; ++slot)
+            of_block = of_block && (!clusters.alive(slot) || clusters.position[slot].allFinite());
+        if (!of_block)
+            finite = false;
+    });
+    return finite;
 }
 
 } // namespace slod

@@ -180,6 +180,8 @@ void Simulation::State::propagate()
         collisions->fly_members(context());
     propagate_clusters(store.clusters, propagator);
     if (collisions) {
+    if (!plan.has(Phase::Update) && !all_finite(store.clusters)) // else update looks at all that moved
+        refuse_unbounded(frame);
         snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts);
         particle_count -= snapshot.counts.died;
     }

@@ -261,5 +261,23 @@ TEST(SimulationStep, SaysSoWhenParticlesLeaveTheRangeOfNumbers)
     }
 }
 
+// Nothing is updated there: particles only fly.
+TEST(SimulationStep, SaysSoWhenUnclusteredParticlesLeaveTheRangeOfNumbers)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_cluster_size = 1;
+    settings.uniform_gravity = UniformGravitySettings{{0, 0, -1e307}};
+    Simulation simulation(settings, stars_and_dust(3, 3), {});
+    ASSERT_FALSE(simulation.plan().has(Phase::Update));
+    const auto run_on = [&] {
+        for (int frame = 0; frame < 1000; ++frame) {
+            const Snapshot& now = simulation.step({.clusters = true});
+            for (const Vector3d& x : now.clusters.position)
+                ASSERT_TRUE(x.allFinite());
+        }
+    };
+    EXPECT_THROW(run_on(), std::overflow_error);
+}
+
 } // namespace
 } // namespace slod::test
