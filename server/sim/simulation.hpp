@@ -77,8 +77,8 @@ public:
     /// Every particle, mapped out of its cluster, ordered by id. O(particles).
     ParticleSet particles() const;
 
-    /// What is wrong with who is where: clusters in pools, pools in trees, members in clusters, bodies in the
-    /// force view; empty when nothing is. O(clusters).
+    /// What is wrong with who is where: clusters in pools, pools in trees, members in clusters and in their
+    /// sums, bodies in the force view; empty when nothing is. O(particles).
     Problems problems() const;
 
 private:

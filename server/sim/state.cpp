@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cluster/sums_problems.hpp"
 #include "core/assert.hpp"
 #include "sim/integrator.hpp"
 
@@ -179,9 +180,9 @@ void Simulation::State::propagate()
     if (collisions)
         collisions->fly_members(context());
     propagate_clusters(store.clusters, propagator);
-    if (collisions) {
     if (!plan.has(Phase::Update) && !all_finite(store.clusters)) // else update looks at all that moved
         refuse_unbounded(frame);
+    if (collisions) {
         snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts);
         particle_count -= snapshot.counts.died;
     }
@@ -239,10 +240,10 @@ Problems Simulation::State::problems() const
     if (members != particle_count)
         found.push_back("clusters hold " + std::to_string(members) + " particles of " +
                         std::to_string(particle_count));
-    if (plan.has(Phase::Moments)) {
-        const Problems of_view = slod::problems(view, store.clusters);
-        found.insert(found.end(), of_view.begin(), of_view.end());
-    }
+    const auto add = [&](const Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
+    add(sums_problems(store, frame));
+    if (plan.has(Phase::Moments))
+        add(slod::problems(view, store.clusters));
     return found;
 }
 
