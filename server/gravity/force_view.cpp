@@ -13,8 +13,7 @@ namespace slod {
 namespace {
 
 constexpr std::size_t block = 512;
-constexpr std::size_t deepest_path = 160; ///< nodes from the root: octants of cells, k-d nodes, halved leaves
-constexpr std::size_t leaf_bodies = 8;    ///< a leaf with more is halved
+constexpr std::size_t leaf_bodies = 8; ///< a leaf with more is halved
 
 /// Cells beyond 2^20 from the origin share the codes at the rim: their order suffers, nothing else.
 std::uint64_t morton_code(const Cell& cell)
@@ -25,11 +24,22 @@ std::uint64_t morton_code(const Cell& cell)
     return shifted(cell.x) | shifted(cell.y) << 1 | shifted(cell.z) << 2;
 }
 
+/// Whether there is no cluster below the node: found out at the first one, so mostly in a few steps.
+bool holds_nothing(const Subtree& tree, NodeId id)
+{
+    const Node& node = tree.nodes[id.index];
+    if (node.leaf())
+        return tree.pools[node.pool.index].clusters == 0;
+    return holds_nothing(tree, node.left) && holds_nothing(tree, node.right());
+}
+
+/// Those that hold anything.
 void sort_cells(std::vector<ForceView::CellRoot>& cells, const Subtree& tree)
 {
     cells.clear();
     tree.cells.for_each([&](const Cell& cell, NodeId root) {
-        cells.push_back({morton_code(cell), cell, root});
+        if (!holds_nothing(tree, root))
+            cells.push_back({morton_code(cell), cell, root});
     });
     std::sort(cells.begin(), cells.end(), [](const ForceView::CellRoot& a, const ForceView::CellRoot& b) {
         return std::tie(a.key, a.cell) < std::tie(b.key, b.cell);
@@ -50,12 +60,17 @@ public:
         if (begin == end)
             return;
         const std::uint64_t apart = view_.cells[begin].key ^ view_.cells[end - 1].key;
-        if (apart == 0) { // one cell, or cells that share their code
-            for (std::size_t cell = begin; cell < end; ++cell)
-                add_tree(view_.cells[cell].root);
+        if (end - begin == 1) {
+            add_tree(view_.cells[begin].root);
             return;
         }
         const std::size_t node = open();
+        if (apart == 0) { // bins of one cell, or cells at the rim
+            for (std::size_t cell = begin; cell < end; ++cell)
+                add_tree(view_.cells[cell].root);
+            close(node);
+            return;
+        }
         const int shift =
             (int(std::bit_width(apart)) - 1) / 3 * 3; // of the octants in which the cells differ
         for (std::uint64_t octant = 0; octant < 8; ++octant) {
@@ -83,27 +98,24 @@ private:
         ForceView::Node& closed = view_.nodes[node];
         closed.count = std::uint32_t(view_.slot.size()) - closed.first;
         closed.next = std::uint32_t(view_.nodes.size());
-        const bool doubled = view_.nodes.size() > node + 1 && view_.nodes[node + 1].count == closed.count;
-        if (closed.count == 0) {
-            view_.nodes.resize(node);
-        } else if (doubled) {
-            view_.nodes.erase(view_.nodes.begin() + std::ptrdiff_t(node));
-            for (std::size_t below = node; below < view_.nodes.size(); ++below)
-                --view_.nodes[below].next;
-        }
     }
 
+    /// The node, or the one of its sides that holds anything.
     void add_tree(NodeId id)
     {
         const Node& node = tree_.nodes[id.index];
         if (node.leaf()) {
             add_leaf(tree_.pools[node.pool.index]);
-            return;
+        } else if (holds_nothing(tree_, node.left)) {
+            add_tree(node.right());
+        } else if (holds_nothing(tree_, node.right())) {
+            add_tree(node.left);
+        } else {
+            const std::size_t opened = open();
+            add_tree(node.left);
+            add_tree(node.right());
+            close(opened);
         }
-        const std::size_t opened = open();
-        add_tree(node.left);
-        add_tree(node.right());
-        close(opened);
     }
 
     void add_leaf(const Pool& pool)
@@ -111,8 +123,7 @@ private:
         const std::size_t first = view_.slot.size();
         for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters_.next[slot.index])
             view_.slot.push_back(slot);
-        if (view_.slot.size() > first)
-            add_halves(first, view_.slot.size());
+        add_halves(first, view_.slot.size());
     }
 
     /// Adds bodies [first, last), which are in the run already. Pools of small clusters hold hundreds of
@@ -181,9 +192,8 @@ void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t
     view.slot.reserve(bodies);
     view.cells.reserve(pools);
     view.regions.reserve(regions);
-    // An inner node has two children at least; while one is being built, its path may hold some with one. A
-    // halved leaf's parts hold half of leaf_bodies at least.
-    view.nodes.reserve(2 * (pools + 2 * bodies / leaf_bodies) + deepest_path);
+    // An inner node has two children at least. A halved leaf's parts hold half of leaf_bodies at least.
+    view.nodes.reserve(2 * (pools + 2 * bodies / leaf_bodies));
     if (gravity.multipoles == Multipoles::Quadrupole)
         view.second_moments.reserve(view.nodes.capacity());
 }

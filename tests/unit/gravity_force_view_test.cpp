@@ -60,6 +60,38 @@ TEST(ForceView, IsSoundAndHoldsEachClusterOnce)
     }
 }
 
+// Cells beyond 2^20 share a code, as do the bins of one cell.
+TEST(ForceView, ARegionHasOneRootWhereCellsShareACode)
+{
+    for (const BinBy bin_by : {BinBy::None, BinBy::Mass}) {
+        test::World world({MapKind::Scalar, 0, 0.1}, {}, {.bin_by = bin_by}, 1);
+        for (std::uint64_t i = 1; i <= 5; ++i) {
+            const double x = bin_by == BinBy::None ? 2e6 + double(i) : 0.5;
+            world.add({{.position = {x, 0, 0}, .velocity = {0, 0, 0}, .id = i, .mass = std::exp2(float(i))}});
+        }
+        EXPECT_EQ(world.region().cells.size(), 5U);
+        const ForceView view = view_of(world);
+        EXPECT_EQ(problems(view, world.store.clusters), Problems{});
+        EXPECT_EQ(view.nodes.size(), 6U);
+        EXPECT_EQ(view.nodes.front().count, 5U);
+    }
+}
+
+// A path of k-d nodes each of which holds nothing on one side, as what moves away leaves behind.
+TEST(ForceView, HasNoNodeForWhatHoldsNothing)
+{
+    test::World world({MapKind::Scalar, 0, 0.1}, {}, {}, 16);
+    for (std::uint64_t i = 0; i < 2; ++i)
+        world.add({{.position = {0.5 + double(i), 0.5, 0.5}, .velocity = {0, 0, 0}, .id = i, .mass = 1}});
+    for (double at = 8; at >= 1; at /= 2)
+        expand(world.region(), world.store.clusters, locate(world.region(), Vector3d(0.5, 0.5, 0.5)), 0, at);
+    const PoolId far_off = locate_or_grow(world.region(), Vector3d(40, 0.5, 0.5));
+    expand(world.region(), world.store.clusters, far_off, 0, 40);
+    const ForceView view = view_of(world);
+    EXPECT_EQ(view.nodes.size(), 3U);
+    EXPECT_EQ(problems(view, world.store.clusters), Problems{});
+}
+
 TEST(ForceView, ABodyIsItsClustersCentreMassSizeAndSoftening)
 {
     test::World world = random_world(1);
