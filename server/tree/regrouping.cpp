@@ -11,6 +11,7 @@ namespace slod {
 namespace {
 
 constexpr std::size_t block = 1024;          ///< clusters planned by one task
+constexpr std::size_t most_blocks = 64;      ///< of clusters whose velocities are summed up, by region
 constexpr std::uint64_t revision_period = 8; ///< frames between revisions of a leaf
 /// Frames over which a region's clusters are split when its maximum size falls: a sweep, not a stroke.
 constexpr std::uint64_t split_period = 8;
@@ -22,7 +23,7 @@ constexpr double flooded = 4, crowded = 1.4, sparse = 0.7;
 void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
 {
     surroundings_.reserve(tree.subtrees.size());
-    in_region_.reserve(tree.subtrees.size());
+    rushes_.reserve(most_blocks * tree.subtrees.size());
     const std::size_t clusters = context_.store.clusters.slot_capacity();
     grouping_.reserve(particle_count, clusters, clusters);
     actions_.reserve(clusters);
@@ -236,22 +237,33 @@ void Regrouping::measure_surroundings(const SlodTree& tree)
 {
     const ClusterTable& clusters = context_.store.clusters;
     surroundings_.assign(tree.subtrees.size(), Vector3d(0, 0, 0));
-    in_region_.assign(tree.subtrees.size(), 0);
     const auto at_rest = [](const Subtree& subtree) {
         return subtree.settings.velocity_reference == VelocityReference::Rest;
     };
     if (std::all_of(tree.subtrees.begin(), tree.subtrees.end(), at_rest))
         return;
-    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
-        surroundings_[clusters.region[slot]] += double(clusters.count[slot]) * clusters.velocity[slot];
-        in_region_[clusters.region[slot]] += clusters.count[slot];
-    }
+    const std::size_t regions = tree.subtrees.size();
+    const std::size_t share = std::max(block, block_count(clusters.slot_count(), most_blocks));
+    const std::size_t blocks = block_count(clusters.slot_count(), share);
+    rushes_.assign(blocks * regions, {});
+    for_each_block(clusters.slot_count(), share, [&](std::size_t first, std::size_t last) {
+        Rush* const rushes = &rushes_[first / share * regions];
+        for (std::size_t slot = first; slot < last; ++slot) {
+            if (!clusters.alive(slot))
+                continue;
+            Rush& rush = rushes[clusters.region[slot]];
+            rush.velocity += double(clusters.count[slot]) * clusters.velocity[slot];
+            rush.particles += clusters.count[slot];
+        }
+    });
     for (const Subtree& subtree : tree.subtrees) {
-        Vector3d& mean = surroundings_[subtree.region];
-        if (subtree.settings.velocity_reference == VelocityReference::Rest || in_region_[subtree.region] == 0)
-            mean.setZero();
-        else
-            mean /= double(in_region_[subtree.region]);
+        Rush sum;
+        for (std::size_t row = subtree.region; row < rushes_.size(); row += regions) {
+            sum.velocity += rushes_[row].velocity;
+            sum.particles += rushes_[row].particles;
+        }
+        if (!at_rest(subtree) && sum.particles > 0)
+            surroundings_[subtree.region] = sum.velocity / double(sum.particles);
     }
 }
 

@@ -47,6 +47,12 @@ private:
         std::uint64_t nodes = 0, tests = 0;
     };
 
+    /// A sum over particles.
+    struct Rush {
+        Vector3d velocity{0, 0, 0};
+        std::uint64_t particles = 0;
+    };
+
     /// One subtree's share of the memory to split leaves with, and what was looked at there.
     struct Revision {
         std::size_t first = 0, clusters = 0;
@@ -78,9 +84,9 @@ private:
     std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
     std::vector<HeldVelocity> held_; ///< by cluster that is split, if any may hold one
     SplitMemory split_memory_;
-    std::vector<Revision> revisions_;      ///< by region
-    std::vector<Vector3d> surroundings_;   ///< by region: what its velocities are relative to
-    std::vector<std::uint64_t> in_region_; ///< particles, by region
+    std::vector<Revision> revisions_;    ///< by region
+    std::vector<Vector3d> surroundings_; ///< by region: what its velocities are relative to
+    std::vector<Rush> rushes_;           ///< by block of slots, then region
 };
 
 } // namespace slod

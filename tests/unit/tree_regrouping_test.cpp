@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -322,6 +323,24 @@ TEST(Regrouping, ACrowdedPoolIsSplitAtTheMedianOfItsMembers)
         members.push_back(pool.members);
     std::sort(members.begin(), members.end());
     EXPECT_EQ(members, (std::vector<std::uint32_t>{40, 61}));
+}
+
+// What a slot held before is no velocity of the surroundings.
+TEST(Regrouping, ClustersMergeWhateverEndedOnesLeftBehind)
+{
+    test::World world(rigid, {}, {.max_cluster_size = 8}, 16);
+    world.tree.merging = true;
+    const ClusterSlot ended = world.add({{.position = {4, 4, 4}, .velocity = {1, 0, 0}, .id = 1, .mass = 1}});
+    for (std::uint64_t id = 2; id <= 3; ++id)
+        world.add({{.position = {4, 4, 4}, .velocity = {1, 0, 0}, .id = id, .mass = 1}});
+    unlink(world.region(), world.store.clusters, ended);
+    world.store.clusters.free_slot(ended);
+    world.store.clusters.velocity[ended.index].setConstant(std::numeric_limits<double>::infinity());
+    Regrouping regrouping({}, world.context(0));
+    UpdateCounts counts;
+    for (std::uint64_t frame = 1; frame <= 16; ++frame)
+        regrouping.update(world.tree, frame, counts);
+    EXPECT_EQ(counts.merges, 1U);
 }
 
 } // namespace
