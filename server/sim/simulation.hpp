@@ -70,8 +70,9 @@ public:
     const SimulationSettings& settings() const;
     std::string_view isa() const; ///< of the kernels in use
 
-    /// Covers centres, velocities, maps, members, masses, ids, the region table, the level of detail and
-    /// the random counters.
+    /// Covers what determines the particles at the frame's end: centres, velocities, maps, members, masses,
+    /// ids, the region table, the level of detail and the random counters. Not what is derived of them for
+    /// the next frame, such as accelerations and tides.
     std::uint64_t state_hash() const;
 
     /// Every particle, mapped out of its cluster, ordered by id. O(particles).

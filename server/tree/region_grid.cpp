@@ -5,7 +5,7 @@
 namespace slod {
 namespace {
 
-constexpr double most_cells = 64; ///< that one box is looked up in
+constexpr double most_cells = 64; ///< of its size; with those that its faces cut it reaches into 125 at most
 constexpr std::int32_t cell_limit = 1 << 30;
 
 } // namespace

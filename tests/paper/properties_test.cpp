@@ -103,7 +103,7 @@ TEST(Paper, A13_FasterParticlesAreInSmallerClusters)
     EXPECT_GE(mean_size(slow) / mean_size(fast), 4);
 }
 
-TEST(Paper, A14_RegionsThatCoverTheWorldTakeParticlesByTheirMass)
+TEST(Paper, A14_A50_RegionsThatCoverTheWorldTakeParticlesByTheirMass)
 {
     RigidRules rules{.background = {.max_cluster_size = 8}, .regions = {}};
     rules.regions = {world_region("light", 2), world_region("heavy", 32)};
