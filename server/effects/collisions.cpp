@@ -70,7 +70,8 @@ void Collisions::fly(const UpdateContext& context, Struck& struck)
     const std::span<Particle> members = std::span(members_).subspan(struck.first, struck.count);
     map_out(context.store, struck.slot, context.frame - 1, members);
     // What the kicks give at the ends of the frame acts all through it where something may be hit meanwhile:
-    // half of it is taken back, and the other half is yet to come. Free flight is the same either way.
+    // half of it is taken back, and the other half is yet to come. Without drag free flight is the same
+    // either way, up to rounding; with it they differ in third order of the step.
     const Vector3d acceleration =
         clusters.columns.acceleration ? clusters.acceleration[struck.slot.index] : Vector3d(0, 0, 0);
     const Vector3d half_kick = (0.5 * context.step) * acceleration;
@@ -118,11 +119,15 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
 }
 
 /// Whether the cluster goes on, which it does where its map carries the members to where they are, where they
-/// rest, and where it is a single particle, which is given its outcome.
+/// rest, and where it is a single particle, which is given its outcome if it touched anything.
 bool Collisions::keep(ClusterTable& clusters, const Struck& struck) const
 {
     const std::size_t slot = struck.slot.index;
     const bool withheld = clusters.columns.withheld && !clusters.withheld[slot].isZero(0);
+    const bool carried = rules_.carries_members || struck.count == 1;
+    const bool free = carried && !struck.touched && !withheld;
+    if (free)
+        return true;
     if (struck.count == 1) {
         clusters.position[slot] = members_[struck.first].position;
         clusters.velocity[slot] = members_[struck.first].velocity;
@@ -137,7 +142,7 @@ bool Collisions::keep(ClusterTable& clusters, const Struck& struck) const
         clusters.position[slot] = struck.position;
         clusters.velocity[slot] = struck.velocity;
     }
-    return rests || (rules_.carries_members && !struck.touched);
+    return rests;
 }
 
 /// Lets the cluster end, and groups its members: those that touched nothing stay together where the map

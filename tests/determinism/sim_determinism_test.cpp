@@ -109,8 +109,8 @@ const std::map<std::string, std::uint64_t> pinned{
     {"regions", 0x638d6692dd515f60},
     {"full_fountain", 0xf279d52274d45aa},
     {"walk_with_quadrupoles", 0xcf2c06de94c481cc},
-    {"obstacles", 0x7ba4153cd1f7646f},
-    {"rigid_obstacles", 0xb4413e9c52c00234},
+    {"obstacles", 0x2b513e29b1de3d08},
+    {"rigid_obstacles", 0x7313ee4ccb5397cd},
     {"attracted_obstacles", 0x52a9420e12645135},
 };
 

@@ -147,6 +147,34 @@ TEST(Collisions, LeaveClustersThatTouchNothingAsTheyAre)
         EXPECT_EQ(a[i].position, b[i].position);
 }
 
+// Two that attract each other under drag, beside a wall so near that the bend of its way in the first frame,
+// an eighth of 1/64^2, might take one of them there.
+TEST(Collisions, LeaveSingleParticlesThatTouchNothingOnTheirWays)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_cluster_size = 1;
+    settings.gravity.emplace();
+    settings.uniform_gravity.emplace();
+    settings.linear_drag.emplace();
+    const ParticleSet initial{{{0, 0, 0}, {0, 0.5, 0}, 1, 1}, {{1, 0, 0}, {0, -0.5, 0}, 2, 1}};
+    Simulation without(settings, initial, {});
+    settings.colliders = {with(plane({-1e-5, 0, 0}, {1, 0, 0}), 1, 0)};
+    Simulation with_wall(settings, initial, {});
+    std::uint64_t struck = 0;
+    for (int frame = 0; frame < 8; ++frame) {
+        without.step({});
+        const FrameCounts& counts = with_wall.step({}).counts;
+        struck += counts.struck;
+        ASSERT_EQ(counts.impacts, 0U);
+    }
+    EXPECT_GT(struck, 0U);
+    const ParticleSet a = without.particles(), b = with_wall.particles();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].position, b[i].position);
+        EXPECT_EQ(a[i].velocity, b[i].velocity);
+    }
+}
+
 TEST(Collisions, FollowTheWindWhenItChanges)
 {
     SimulationSettings settings = quiet_settings();
