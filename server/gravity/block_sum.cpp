@@ -36,12 +36,14 @@ ScaledUnits units_of(const ForceView& view)
 
 Vector3d middle_of_block(const ForceView& view, std::size_t first, std::size_t last)
 {
+    constexpr std::size_t most_samples = 15;
+    const std::size_t count = std::min(last - first, most_samples);
     const auto median = [&](const AlignedVector<double>& column) {
-        std::array<double, BlockSum<double>::most_targets> values;
-        const auto end = std::copy(column.begin() + std::ptrdiff_t(first),
-                                   column.begin() + std::ptrdiff_t(last), values.begin());
-        const auto middle = values.begin() + (last - first) / 2;
-        std::nth_element(values.begin(), middle, end);
+        std::array<double, most_samples> samples{};
+        for (std::size_t i = 0; i < count; ++i)
+            samples[i] = column[first + i * (last - first) / count];
+        const auto middle = samples.begin() + std::ptrdiff_t(count / 2);
+        std::nth_element(samples.begin(), middle, samples.begin() + std::ptrdiff_t(count));
         return *middle;
     };
     return {median(view.x), median(view.y), median(view.z)};
@@ -57,7 +59,7 @@ BlockSum<Real>::BlockSum(const ForceView& view, const simd::GravityKernels<Real>
     static_assert(most_targets % simd::tile_width == 0);
     SLOD_ASSERT(first < last && last - first <= most_targets);
     targets_.load(0, view, first, last, origin_, units);
-    targets_.pad(last - first);
+    targets_.pad(last - first, padded_count_);
     for (std::size_t sum = 0; sum < used_sums(); ++sum)
         std::fill_n(total_[sum].begin(), padded_count_, 0.0);
 }
@@ -96,7 +98,22 @@ void BlockSum<Real>::add_node(const ForceView::Node& node, const Symmetric3& sec
     if (node_count_ == most_nodes)
         flush_nodes();
     nodes_.put(node_count_, node.centre - origin_, node.mass, node.q, units_);
-    nodes_.put_moments(node_count_++, second_moments, node.mass, units_);
+    nodes_.put_moments(node_count_++, second_moments, units_);
+}
+
+template <class Real>
+void BlockSum<Real>::add_expansion(const Expansion& expansion, const Vector3d& point)
+{
+    const Expansion here = moved(expansion, (origin_ - point) * units_.per_length, expansion.reach);
+    simd::FarExpansion<Real> terms{};
+    terms.reach = Real(here.reach);
+    const auto round = [](const auto& from, auto& to) { std::copy(std::begin(from), std::end(from), to); };
+    round(here.pull, terms.pull);
+    round(here.tide, terms.tide);
+    round(here.third, terms.third);
+    round(here.fourth, terms.fourth);
+    kernels_.add_expansion(cleared_sums(), terms);
+    take_sums(0);
 }
 
 template <class Real>
@@ -136,10 +153,7 @@ void BlockSum<Real>::flush_points()
     if (source_count_ == 0)
         return;
     const auto kernel = tide_ ? kernels_.add_acceleration_and_tide : kernels_.add_acceleration;
-    kernel(cleared_sums(),
-           {source_count_, sources_.x.data(), sources_.y.data(), sources_.z.data(), sources_.mass.data(),
-            sources_.q.data()},
-           self_);
+    kernel(cleared_sums(), sources_.list(source_count_), self_);
     take_sums(source_count_);
     source_count_ = 0;
     self_ = simd::no_self;
@@ -151,15 +165,7 @@ void BlockSum<Real>::flush_nodes()
     if (node_count_ == 0)
         return;
     const auto kernel = tide_ ? kernels_.add_nodes_acceleration_and_tide : kernels_.add_nodes_acceleration;
-    kernel(cleared_sums(), {{node_count_, nodes_.x.data(), nodes_.y.data(), nodes_.z.data(),
-                             nodes_.mass.data(), nodes_.q.data()},
-                            nodes_.xx.data(),
-                            nodes_.xy.data(),
-                            nodes_.xz.data(),
-                            nodes_.yy.data(),
-                            nodes_.yz.data(),
-                            nodes_.zz.data(),
-                            nodes_.trace.data()});
+    kernel(cleared_sums(), nodes_.list(node_count_));
     take_sums(node_count_);
     node_count_ = 0;
 }

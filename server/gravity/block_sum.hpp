@@ -1,78 +1,19 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "gravity/far_field.hpp"
 #include "gravity/force_view.hpp"
+#include "gravity/kernel_bodies.hpp"
 #include "simd/kernels.hpp"
 
 namespace slod {
 
-/// Powers of two amid a system's lengths and near its mass. Kernels compute in these units, so that no power
-/// of a distance leaves the range of a float; scaling by them is exact.
-struct ScaledUnits {
-    double length = 1, mass = 1;
-};
-
-/// Of a view that holds bodies.
-ScaledUnits units_of(const ForceView& view);
-
 /// A point near which most of the bodies [first, last) are, at most BlockSum's: the median of each
 /// coordinate. An outlier must not draw the origin away from the others.
 Vector3d middle_of_block(const ForceView& view, std::size_t first, std::size_t last);
-
-/// A block of bodies as kernels take them.
-template <class Real, std::size_t capacity>
-struct alignas(64) KernelBodies {
-    std::array<Real, capacity> x, y, z, mass, q;
-
-    void put(std::size_t place, const Vector3d& relative, double body_mass, double body_q,
-             const ScaledUnits& units)
-    {
-        const double per_length = 1 / units.length;
-        x[place] = Real(relative.x() * per_length);
-        y[place] = Real(relative.y() * per_length);
-        z[place] = Real(relative.z() * per_length);
-        mass[place] = Real(body_mass / units.mass);
-        q[place] = Real(body_q * per_length * per_length);
-    }
-
-    /// Puts bodies [first, last) of a view from `place` on.
-    void load(std::size_t place, const ForceView& view, std::size_t first, std::size_t last,
-              const Vector3d& origin, const ScaledUnits& units)
-    {
-        for (std::size_t body = first; body < last; ++body)
-            put(place + body - first, view.position(body) - origin, view.mass[body], view.q[body], units);
-    }
-
-    /// Makes everything from `place` on a finite nothing.
-    void pad(std::size_t place)
-    {
-        for (auto* column : {&x, &y, &z, &mass, &q})
-            std::fill(column->begin() + std::ptrdiff_t(place), column->end(), Real(0));
-    }
-};
-
-/// A block of nodes as kernels take them.
-template <class Real, std::size_t capacity>
-struct alignas(64) KernelNodes : KernelBodies<Real, capacity> {
-    std::array<Real, capacity> xx, xy, xz, yy, yz, zz; ///< three times the second moments per mass
-    std::array<Real, capacity> trace;                  ///< half of theirs
-
-    void put_moments(std::size_t place, const Symmetric3& moments, double node_mass, const ScaledUnits& units)
-    {
-        const double scale = node_mass > 0 ? 3 / (node_mass * units.length * units.length) : 0;
-        xx[place] = Real(scale * moments.xx);
-        xy[place] = Real(scale * moments.xy);
-        xz[place] = Real(scale * moments.xz);
-        yy[place] = Real(scale * moments.yy);
-        yz[place] = Real(scale * moments.yz);
-        zz[place] = Real(scale * moments.zz);
-        trace[place] = Real(0.5 * scale * moments.trace());
-    }
-};
 
 /// The forces on a block of neighbouring bodies: targets [first, last) of a view, sources added one by one
 /// or in runs, kernels called for a chunk of sources at a time, of points or of nodes. Positions are relative
@@ -96,6 +37,9 @@ public:
 
     /// Adds a node with its second moments; it holds none of the targets.
     void add_node(const ForceView::Node& node, const Symmetric3& second_moments);
+
+    /// Adds what far nodes do about `point`.
+    void add_expansion(const Expansion& expansion, const Vector3d& point);
 
     /// Sum over the targets of mass times acceleration / G, by the sources so far.
     Vector3d force();

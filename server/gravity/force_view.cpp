@@ -7,13 +7,13 @@
 #include "core/morton.hpp"
 #include "core/parallel.hpp"
 #include "gravity/node_sums.hpp"
+#include "gravity/pool_nodes.hpp"
 #include "gravity/second_moments.hpp"
 
 namespace slod {
 namespace {
 
 constexpr std::size_t block = 512;
-constexpr std::size_t leaf_bodies = 8; ///< a leaf with more is halved
 
 /// Cells beyond 2^20 from the origin share the codes at the rim: their order suffers, nothing else.
 std::uint64_t morton_code(const Cell& cell)
@@ -46,12 +46,11 @@ void sort_cells(std::vector<ForceView::CellRoot>& cells, const Subtree& tree)
     });
 }
 
-/// Appends nodes and bodies depth first. A node that would hold nothing, or the same as its only child, is
-/// left out.
-class Builder {
+/// Lays out a region's nodes depth first: those above its pools, and room for each pool's bodies and nodes.
+/// No node holds nothing, or the same as its only child.
+class Layout {
 public:
-    Builder(ForceView& view, const Subtree& tree, const ClusterTable& clusters)
-        : view_(view), tree_(tree), clusters_(clusters)
+    Layout(ForceView& view, const Subtree& tree, RegionRow region) : view_(view), tree_(tree), region_(region)
     {}
 
     /// Cells [begin, end), in the order of their codes.
@@ -59,29 +58,28 @@ public:
     {
         if (begin == end)
             return;
-        const std::uint64_t apart = view_.cells[begin].key ^ view_.cells[end - 1].key;
-        if (end - begin == 1) {
+        if (begin + 1 == end) {
             add_tree(view_.cells[begin].root);
             return;
         }
         const std::size_t node = open();
+        const std::uint64_t apart = view_.cells[begin].key ^ view_.cells[end - 1].key;
         if (apart == 0) { // bins of one cell, or cells at the rim
             for (std::size_t cell = begin; cell < end; ++cell)
                 add_tree(view_.cells[cell].root);
-            close(node);
-            return;
-        }
-        const int shift =
-            (int(std::bit_width(apart)) - 1) / 3 * 3; // of the octants in which the cells differ
-        for (std::uint64_t octant = 0; octant < 8; ++octant) {
-            const auto within = [&](const ForceView::CellRoot& cell) {
-                return (cell.key >> shift & 7) <= octant;
-            };
-            const auto first = view_.cells.begin();
-            const auto split =
-                std::partition_point(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(end), within);
-            add_cells(begin, std::size_t(split - first));
-            begin = std::size_t(split - first);
+        } else {
+            const int shift =
+                (int(std::bit_width(apart)) - 1) / 3 * 3; // of the octants in which the cells differ
+            for (std::uint64_t octant = 0; octant < 8; ++octant) {
+                const auto within = [&](const ForceView::CellRoot& cell) {
+                    return (cell.key >> shift & 7) <= octant;
+                };
+                const auto first = view_.cells.begin();
+                const auto split =
+                    std::partition_point(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(end), within);
+                add_cells(begin, std::size_t(split - first));
+                begin = std::size_t(split - first);
+            }
         }
         close(node);
     }
@@ -89,15 +87,14 @@ public:
 private:
     std::size_t open()
     {
-        view_.nodes.push_back({.first = std::uint32_t(view_.slot.size())});
+        view_.nodes.push_back({.first = bodies()});
         return view_.nodes.size() - 1;
     }
 
     void close(std::size_t node)
     {
-        ForceView::Node& closed = view_.nodes[node];
-        closed.count = std::uint32_t(view_.slot.size()) - closed.first;
-        closed.next = std::uint32_t(view_.nodes.size());
+        view_.nodes[node].count = bodies() - view_.nodes[node].first;
+        view_.nodes[node].next = std::uint32_t(view_.nodes.size());
     }
 
     /// The node, or the one of its sides that holds anything.
@@ -105,7 +102,7 @@ private:
     {
         const Node& node = tree_.nodes[id.index];
         if (node.leaf()) {
-            add_leaf(tree_.pools[node.pool.index]);
+            add_pool(node.pool);
         } else if (holds_nothing(tree_, node.left)) {
             add_tree(node.right());
         } else if (holds_nothing(tree_, node.right())) {
@@ -118,50 +115,23 @@ private:
         }
     }
 
-    void add_leaf(const Pool& pool)
+    void add_pool(PoolId id)
     {
-        const std::size_t first = view_.slot.size();
-        for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters_.next[slot.index])
-            view_.slot.push_back(slot);
-        add_halves(first, view_.slot.size());
+        const std::uint32_t clusters = tree_.pools[id.index].clusters;
+        const auto first_node = std::uint32_t(view_.nodes.size());
+        view_.pools.push_back({region_, id, bodies(), first_node});
+        view_.nodes.resize(first_node + nodes_of_pool(clusters));
+        view_.nodes[first_node].first = bodies();
+        view_.nodes[first_node].count = clusters;
+        view_.nodes[first_node].next = std::uint32_t(view_.nodes.size());
+        view_.slot.resize(view_.slot.size() + clusters);
     }
 
-    /// Adds bodies [first, last), which are in the run already. Pools of small clusters hold hundreds of
-    /// them, and those of coincident particles, which no plane divides, any number.
-    void add_halves(std::size_t first, std::size_t last)
-    {
-        const std::size_t node = view_.nodes.size();
-        view_.nodes.push_back({.first = std::uint32_t(first), .count = std::uint32_t(last - first)});
-        if (last - first > leaf_bodies) {
-            halve(first, last);
-            const std::size_t middle = first + (last - first) / 2;
-            add_halves(first, middle);
-            add_halves(middle, last);
-        }
-        view_.nodes[node].next = std::uint32_t(view_.nodes.size());
-    }
-
-    /// Sorts bodies about the median of their longest side; coincident ones by their slots.
-    void halve(std::size_t first, std::size_t last)
-    {
-        Vector3d lower = clusters_.position[view_.slot[first].index], upper = lower;
-        for (std::size_t body = first; body < last; ++body) {
-            lower = lower.cwiseMin(clusters_.position[view_.slot[body].index]);
-            upper = upper.cwiseMax(clusters_.position[view_.slot[body].index]);
-        }
-        int axis = 0;
-        (upper - lower).maxCoeff(&axis);
-        const auto place = [&](ClusterSlot slot) { return clusters_.position[slot.index][axis]; };
-        const auto run = view_.slot.begin();
-        std::nth_element(run + std::ptrdiff_t(first), run + std::ptrdiff_t(first + (last - first) / 2),
-                         run + std::ptrdiff_t(last), [&](ClusterSlot a, ClusterSlot b) {
-                             return place(a) != place(b) ? place(a) < place(b) : a < b;
-                         });
-    }
+    std::uint32_t bodies() const { return std::uint32_t(view_.slot.size()); }
 
     ForceView& view_;
     const Subtree& tree_;
-    const ClusterTable& clusters_;
+    RegionRow region_;
 };
 
 void fill_bodies(ForceView& view, const ClusterTable& clusters, const GravitySettings& gravity)
@@ -191,9 +161,9 @@ void reserve(ForceView& view, std::size_t bodies, std::size_t pools, std::size_t
         column->reserve(bodies);
     view.slot.reserve(bodies);
     view.cells.reserve(pools);
+    view.pools.reserve(pools);
     view.regions.reserve(regions);
-    // An inner node has two children at least. A halved leaf's parts hold half of leaf_bodies at least.
-    view.nodes.reserve(2 * (pools + 2 * bodies / leaf_bodies));
+    view.nodes.reserve(2 * pools + most_pool_nodes(bodies)); // an inner node has two children at least
     if (gravity.multipoles == Multipoles::Quadrupole)
         view.second_moments.reserve(view.nodes.capacity());
 }
@@ -204,18 +174,20 @@ void build(ForceView& view, const SlodTree& tree, const ClusterTable& clusters,
     view.nodes.clear();
     view.second_moments.clear();
     view.slot.clear();
+    view.pools.clear();
     view.regions.clear();
     for (const Subtree& subtree : tree.subtrees) {
         ForceView::Region region{.first_body = std::uint32_t(view.slot.size()),
                                  .first_node = std::uint32_t(view.nodes.size()),
                                  .attracts = subtree.settings.attracts};
         sort_cells(view.cells, subtree);
-        Builder(view, subtree, clusters).add_cells(0, view.cells.size());
+        Layout(view, subtree, subtree.region).add_cells(0, view.cells.size());
         region.last_body = std::uint32_t(view.slot.size());
         region.last_node = std::uint32_t(view.nodes.size());
         if (region.body_count() > 0)
             view.regions.push_back(region);
     }
+    fill_pools(view, tree, clusters);
     fill_bodies(view, clusters, gravity);
     sum_up_nodes(view);
     if (gravity.multipoles == Multipoles::Quadrupole)

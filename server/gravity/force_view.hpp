@@ -47,8 +47,9 @@ struct ForceView {
     std::vector<ClusterSlot> slot;
 
     AlignedVector<Node> nodes; ///< depth first; one root per region that holds anything
-    /// Of the nodes, sum of m o o^T with o the offset of a body's centre from the node's: mass length^2.
-    /// Empty where none are asked for. Bodies have none of their own: their extent softens them.
+    /// Of the nodes, sum of m o o^T / sum of m with o the offset of a body's centre from the node's:
+    /// length^2. Of massless ones 0. Empty where none are asked for. Bodies have none of their own: their
+    /// extent softens them.
     AlignedVector<Symmetric3> second_moments;
     std::vector<Region> regions; ///< that hold anything, by row; bodies and nodes go region by region
 
@@ -69,6 +70,12 @@ struct ForceView {
         NodeId root;
     };
     std::vector<CellRoot> cells;
+    struct PoolPlace {
+        RegionRow region;
+        PoolId pool;
+        std::uint32_t first_body, first_node;
+    };
+    std::vector<PoolPlace> pools; ///< that hold anything
 };
 
 /// Measures every cluster's position variance and, with the closure on, its members' own attraction.

@@ -1,25 +1,21 @@
 #include "gravity/forces.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/assert.hpp"
 #include "core/make_room.hpp"
 #include "core/parallel.hpp"
 #include "gravity/block_sum.hpp"
-#include "gravity/opening.hpp"
+#include "gravity/branch_walk.hpp"
 
 namespace slod {
 namespace {
 
 constexpr std::size_t direct_block = 128; ///< targets of a direct sum
-/// Targets that walk together, at most. Kernels run longer on more, and the list is that of the box around
-/// all. One thread and tolerance 0.001, ms and median error, for 96, 128, 192, 256, 384 and 512: sphere of
-/// 50,000 98, 92, 93, 99, 117, 182 and 2.0, 1.8, 1.6, 1.5, 1.2, 1.1e-3; disc of 20,000 26, 26, 25, 26, 30, 48
-/// and 2.2, 2.2, 1.8, 1.8, 1.5, 1.5e-3.
-constexpr std::size_t most_in_group = 256;
+/// Bodies of a branch that one thread walks, at most and at least, and the share of all where in between.
+constexpr std::size_t largest_branch = 4096, smallest_branch = 256, branches = 64;
 
-static_assert(std::max(direct_block, most_in_group) <= BlockSum<float>::most_targets);
+static_assert(direct_block <= BlockSum<float>::most_targets);
 
 std::uint64_t acting_on(const ForceView& view, std::size_t target)
 {
@@ -32,92 +28,49 @@ std::uint64_t acting_on(const ForceView& view, std::size_t target)
 void find_runs(const ForceView& view, std::uint64_t direct_below, std::vector<TargetRun>& runs)
 {
     runs.clear();
+    const std::size_t branch = std::clamp(view.body_count() / branches, smallest_branch, largest_branch);
     for (std::size_t region = 0; region < view.regions.size(); ++region) {
         if (acting_on(view, region) < direct_below)
             append_blocks(view, region, direct_block, runs);
         else
-            append_groups(view, region, most_in_group, runs);
+            append_groups(view, region, branch, runs);
     }
 }
 
-/// One group's walk through one region: depth first, without a stack, as an index that goes on or jumps.
-/// Returns the number of nodes tested.
+/// All pairs of a block of targets with what acts on them.
 template <class Real>
-std::uint64_t walk(const ForceView& view, const ForceView::Region& region, const TargetRun& group,
-                   const Opening& opening, BlockSum<Real>& sum)
+ForceCounts sum_directly(const ForceTerms<Real>& terms, const TargetRun& targets, ClusterTable& clusters)
 {
-    std::uint64_t tested = 0;
-    for (std::uint32_t index = region.first_node; index < region.last_node;) {
-        const ForceView::Node& node = view.nodes[index];
-        const bool holds_group = group.first - node.first < node.count; // below 0 wraps beyond any count
-        const bool leaf = node.next == index + 1;
-        if (!holds_group) {
-            ++tested;
-            const NodeRole role = opening.role_of(node);
-            if (role == NodeRole::Point)
-                sum.add_point(node.centre, node.mass, node.q);
-            else if (role == NodeRole::Extended)
-                sum.add_node(node, view.second_moments[index]);
-            if (role != NodeRole::Opened) {
-                index = node.next;
+    const ForceView& view = terms.view;
+    BlockSum<Real> sum(view, terms.kernels, terms.units, targets.first, targets.last, clusters.columns.tide);
+    const auto add_regions = [&](bool answered) {
+        bool any = false;
+        for (std::size_t source = 0; source < view.regions.size(); ++source) {
+            if (!view.acts(source, targets.region) || view.acts(targets.region, source) != answered)
                 continue;
-            }
+            sum.add_bodies(view.regions[source].first_body, view.regions[source].last_body);
+            any = true;
         }
-        if (leaf || index == group.node) {
-            sum.add_bodies(node.first, node.first + node.count);
-            index = node.next;
-        } else {
-            ++index;
-        }
-    }
-    return tested;
+        return any;
+    };
+    ForceCounts counts;
+    add_regions(true);
+    const Vector3d answered = sum.force();
+    if (add_regions(false))
+        counts.unanswered = terms.gravitational_constant * (sum.force() - answered);
+    sum.store(terms.gravitational_constant, clusters);
+    counts.interactions = sum.interactions();
+    return counts;
 }
 
-/// One evaluation's terms, the same for all runs.
 template <class Real>
-struct Evaluation {
-    const ForceView& view;
-    const simd::GravityKernels<Real>& kernels;
-    const GravitySettings& gravity;
-    double gravitational_constant;
-    ScaledUnits units;
-
-    ForceCounts run(const TargetRun& targets, ClusterTable& clusters) const
-    {
-        std::optional<Opening> opening;
-        if (targets.node != TargetRun::no_node)
-            opening.emplace(view, targets, gravity, gravitational_constant, clusters.pull);
-        ForceCounts counts{.groups = opening.has_value()};
-        BlockSum<Real> sum(view, kernels, units, targets.first, targets.last, clusters.columns.tide);
-        const auto add_regions = [&](bool answered) {
-            bool any = false;
-            for (std::size_t source = 0; source < view.regions.size(); ++source) {
-                if (!view.acts(source, targets.region) || view.acts(targets.region, source) != answered)
-                    continue;
-                const ForceView::Region& region = view.regions[source];
-                if (opening)
-                    counts.nodes_tested += walk(view, region, targets, *opening, sum);
-                else
-                    sum.add_bodies(region.first_body, region.last_body);
-                any = true;
-            }
-            return any;
-        };
-        add_regions(true);
-        const Vector3d answered = sum.force();
-        if (add_regions(false))
-            counts.unanswered = gravitational_constant * (sum.force() - answered);
-        sum.store(gravitational_constant, clusters);
-        counts.interactions = sum.interactions();
-        return counts;
-    }
-};
-
-template <class Real>
-void run_all(const Evaluation<Real>& evaluation, ForceLists& lists, ClusterTable& clusters)
+void run_all(const ForceTerms<Real>& terms, ForceLists& lists, ClusterTable& clusters)
 {
     for_each_task(lists.runs.size(), [&](std::size_t index) {
-        lists.counts[index] = evaluation.run(lists.runs[index], clusters);
+        const TargetRun& run = lists.runs[index];
+        lists.counts[index] = run.node == TargetRun::no_node
+                                  ? sum_directly(terms, run, clusters)
+                                  : BranchWalk<Real>(terms, run.region, clusters).run(run.node);
     });
 }
 

@@ -29,10 +29,8 @@ void reserve(ForceLists& lists, std::size_t bodies);
 
 /// Accelerations of all clusters by gravity, and tidal tensors where the table has them, written to the
 /// table: sums of G m_j d / (d^2 + q_i + q_j)^(3/2) over the bodies of all regions that act. Where fewer than
-/// direct_below act they are sums over all pairs, else by group walks (Barnes 1990, J. Comput. Phys. 87,
-/// 161): one walk of the tree for each group of neighbouring bodies collects the nodes that may act as one
-/// body, and the bodies of those that may not. The relative criterion compares with the pull of the last
-/// evaluation. The view must be built with the same settings.
+/// direct_below act they are sums over all pairs, else by walks of the tree: BranchWalk. The relative
+/// criterion compares with the pull of the last evaluation. The view must be built with the same settings.
 ForceCounts evaluate_gravity(const ForceView& view, const simd::KernelTable& kernels,
                              const GravitySettings& gravity, double gravitational_constant, ForceLists& lists,
                              ClusterTable& clusters);

@@ -8,55 +8,68 @@ namespace {
 
 constexpr double least_share = 0.05; ///< of the gross pull
 
-/// 0 when there is one that is not known.
-double smallest_pull(const ForceView& view, const TargetRun& group, const AlignedVector<double>& pulls)
+struct Corners {
+    Vector3d lower, upper;
+};
+
+/// Of the box around a node's bodies.
+Corners corners_of(const ForceView& view, const ForceView::Node& node)
 {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t body = group.first; body < group.last; ++body)
-        smallest = std::min(smallest, pulls[view.slot[body].index]);
-    return smallest;
+    Corners corners{view.position(node.first), view.position(node.first)};
+    for (std::uint32_t body = node.first; body < node.first + node.count; ++body) {
+        corners.lower = corners.lower.cwiseMin(view.position(body));
+        corners.upper = corners.upper.cwiseMax(view.position(body));
+    }
+    return corners;
 }
 
 } // namespace
 
-Opening::Opening(const ForceView& view, const TargetRun& group, const GravitySettings& gravity,
-                 double gravitational_constant, const AlignedVector<double>& pulls)
-    : lower_(view.position(group.first)), upper_(lower_),
-      angle_squared_(std::min(gravity.opening_angle, guard) * std::min(gravity.opening_angle, guard)),
-      accepted_(gravity.multipoles == Multipoles::Quadrupole ? NodeRole::Extended : NodeRole::Point)
+Allowance allowance_for(const ForceView& view, const ForceView::Node& targets, const GravitySettings& gravity,
+                        double gravitational_constant, const AlignedVector<double>& pulls, double gross_pull)
 {
-    for (std::uint32_t body = group.first; body < group.last; ++body) {
-        lower_ = lower_.cwiseMin(view.position(body));
-        upper_ = upper_.cwiseMax(view.position(body));
-    }
-    const double smallest = smallest_pull(view, group, pulls);
-    relative_ = gravity.opening == OpeningCriterion::Relative && smallest > 0;
-    if (!relative_)
-        return;
-    allowed_ = gravity.force_tolerance *
-               std::max(smallest / gravitational_constant, least_share * gross_pull(view, group));
-    allowed_of_points_ = accepted_ == NodeRole::Extended ? 0.5 * allowed_ : allowed_;
+    if (gravity.opening != OpeningCriterion::Relative)
+        return {};
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t body = targets.first; body < targets.first + targets.count; ++body)
+        smallest = std::min(smallest, pulls[view.slot[body].index]);
+    if (!(smallest > 0))
+        return {};
+    return {true,
+            gravity.force_tolerance * std::max(smallest / gravitational_constant, least_share * gross_pull)};
 }
 
-/// Sum of the sizes of pulls / G, by nodes as coarse as the guard allows; without the nearest bodies.
-double Opening::gross_pull(const ForceView& view, const TargetRun& group) const
+double gross_pull(const ForceView& view, const ForceView::Node& targets, std::uint32_t region)
 {
     double sum = 0;
     for (std::size_t source = 0; source < view.regions.size(); ++source) {
-        if (!view.acts(source, group.region))
+        if (!view.acts(source, region))
             continue;
-        const ForceView::Region& region = view.regions[source];
-        for (std::uint32_t index = region.first_node; index < region.last_node;) {
+        const ForceView::Region& acting = view.regions[source];
+        for (std::uint32_t index = acting.first_node; index < acting.last_node;) {
             const ForceView::Node& node = view.nodes[index];
-            const double squared = distance_squared(node);
-            const double radius = double(node.radius);
-            const bool far = squared > 0 && radius * radius <= guard * guard * squared;
+            const double squared = (node.centre - targets.centre).squaredNorm();
+            const double size = double(node.radius) + double(targets.radius);
+            const bool far = size * size <= opening_guard * opening_guard * squared;
             if (far)
                 sum += node.mass / (squared + node.q);
-            index = far || node.count <= group.last - group.first ? node.next : index + 1;
+            index = far || node.count <= targets.count ? node.next : index + 1;
         }
     }
     return sum;
+}
+
+Opening::Opening(const ForceView& view, const ForceView::Node& targets, const GravitySettings& gravity,
+                 const Allowance& allowance)
+    : targets_(targets), allowance_(allowance),
+      angle_squared_(std::min(gravity.opening_angle, opening_guard) *
+                     std::min(gravity.opening_angle, opening_guard)),
+      accepted_(gravity.multipoles == Multipoles::Quadrupole ? NodeRole::Extended : NodeRole::Point),
+      allowed_of_points_(accepted_ == NodeRole::Extended ? 0.5 * allowance.error : allowance.error)
+{
+    const Corners corners = corners_of(view, targets);
+    lower_ = corners.lower;
+    upper_ = corners.upper;
 }
 
 } // namespace slod

@@ -25,7 +25,7 @@ double potential_energy(const ForceView& view, const simd::KernelTable& table, d
         KernelBodies<double, target_block> targets;
         KernelBodies<double, source_block> sources;
         targets.load(0, view, first, last, origin, {});
-        targets.pad(last - first);
+        targets.pad(last - first, target_block);
         alignas(64) std::array<double, target_block> potential{};
         for (std::size_t source = 0; source < count; source += source_block) {
             const std::size_t end = std::min(count, source + source_block);

@@ -17,14 +17,22 @@ void add_point(Symmetric3& moments, double mass, const Vector3d& offset)
     moments.zz += weighted.z() * offset.z();
 }
 
-void add(Symmetric3& moments, const Symmetric3& others)
+void add(Symmetric3& moments, double mass, const Symmetric3& others)
 {
-    moments.xx += others.xx;
-    moments.xy += others.xy;
-    moments.xz += others.xz;
-    moments.yy += others.yy;
-    moments.yz += others.yz;
-    moments.zz += others.zz;
+    moments.xx += mass * others.xx;
+    moments.xy += mass * others.xy;
+    moments.xz += mass * others.xz;
+    moments.yy += mass * others.yy;
+    moments.yz += mass * others.yz;
+    moments.zz += mass * others.zz;
+}
+
+Symmetric3 per_mass(const Symmetric3& moments, double mass)
+{
+    Symmetric3 result;
+    if (mass > 0)
+        add(result, 1 / mass, moments);
+    return result;
 }
 
 Symmetric3 of_leaf(const ForceView& view, const ForceView::Node& leaf)
@@ -32,7 +40,7 @@ Symmetric3 of_leaf(const ForceView& view, const ForceView::Node& leaf)
     Symmetric3 moments;
     for (std::uint32_t body = leaf.first; body < leaf.first + leaf.count; ++body)
         add_point(moments, view.mass[body], view.position(body) - leaf.centre);
-    return moments;
+    return per_mass(moments, leaf.mass);
 }
 
 /// From the children's, each about its own centre (Steiner).
@@ -41,10 +49,10 @@ Symmetric3 of_inner(const ForceView& view, std::size_t index)
     const ForceView::Node& node = view.nodes[index];
     Symmetric3 moments;
     for (std::size_t child = index + 1; child < node.next; child = view.nodes[child].next) {
-        add(moments, view.second_moments[child]);
+        add(moments, view.nodes[child].mass, view.second_moments[child]);
         add_point(moments, view.nodes[child].mass, view.nodes[child].centre - node.centre);
     }
-    return moments;
+    return per_mass(moments, node.mass);
 }
 
 } // namespace

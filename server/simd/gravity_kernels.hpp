@@ -51,6 +51,47 @@ struct GravityNodes : GravitySources<Real> {
     const Real* trace;                       ///< half of theirs
 };
 
+/// What far nodes do about one point, the origin, where targets of one softening are. With d from there to a
+/// node, r^2 = |d|^2 + q_target + q_node, n = d / r, R = `reach` and p = m / r^2, sums over the nodes of
+///  - FarTerm::Pull     the acceleration at the origin, with the second moments' share: 3 terms,
+///  - FarTerm::Tide     R times the tide there, with theirs: xx, xy, xz, yy, yz, zz,
+///  - FarTerm::Third    p (R/r)^2 n n n: xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz,
+///  - FarTerm::Fifth    p (R/r)^2 n: 3 terms,
+///  - FarTerm::Fourth   p (R/r)^3 n n n n: x times those of Third, then yyyy, yyyz, yyzz, yzzz, zzzz,
+///  - FarTerm::Sixth    p (R/r)^3 n n: as Tide,
+///  - FarTerm::Seventh  p (R/r)^3.
+/// None exceeds the nodes' pulls while R is less than any r.
+namespace FarTerm {
+enum : std::size_t {
+    Pull = 0,
+    Tide = 3,
+    Third = 9,
+    Fifth = 19,
+    Fourth = 22,
+    Sixth = 37,
+    Seventh = 43,
+    count
+};
+}
+
+template <class Real>
+struct FarPoint {
+    Real q;      ///< half the squared softening of the targets, length^2, >= 0
+    Real reach;  ///< length that the terms are made accelerations with
+    Real* terms; ///< FarTerm::count runs of tile_width partial sums, added to
+};
+
+/// The acceleration near an origin, to the third power of the offset y = x / reach, as terms of Taylor's
+/// series: a = pull + T y + 1/2 C y y + 1/6 D y y y, each symmetric and an acceleration.
+template <class Real>
+struct FarExpansion {
+    Real reach;      ///< length
+    Real pull[3];    ///< x, y, z
+    Real tide[6];    ///< xx, xy, xz, yy, yz, zz
+    Real third[10];  ///< as FarTerm::Third
+    Real fourth[15]; ///< as FarTerm::Fourth
+};
+
 /// Gravity in one precision. With d = source - target and r^2 = |d|^2 + q_target + q_source they add
 ///  - acceleration  sum m d / r^3,
 ///  - tide          sum m (3 d d^T / r^5 - 1 / r^3), the acceleration's derivative by the target's place,
@@ -71,6 +112,11 @@ struct GravityKernels {
                                       std::ptrdiff_t self);
     void (*add_nodes_acceleration)(const GravityTargets<Real>&, const GravityNodes<Real>&);
     void (*add_nodes_acceleration_and_tide)(const GravityTargets<Real>&, const GravityNodes<Real>&);
+    /// The nodes' count is a multiple of tile_width, their arrays aligned or not; those without mass add
+    /// nothing.
+    void (*add_far_nodes)(const FarPoint<Real>&, const GravityNodes<Real>&);
+    /// Tides too where the targets have them.
+    void (*add_expansion)(const GravityTargets<Real>&, const FarExpansion<Real>&);
     void (*add_potential)(const PotentialTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);
 };
 

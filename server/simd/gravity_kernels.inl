@@ -212,7 +212,7 @@ void add(const typename Sums::Targets& targets, const typename Sums::Sources& so
 
 } // namespace slod::simd::SLOD_ISA
 
-#include "simd/quadrupole_kernels.inl"
+#include "simd/far_kernels.inl" // and quadrupole_kernels.inl
 
 namespace slod::simd::SLOD_ISA {
 
@@ -224,6 +224,8 @@ constexpr GravityKernels<Real> gravity_kernels = {
     add<Real, AccelerationAndTide<Real>>,
     add_nodes<Real, NodesAcceleration<Real>>,
     add_nodes<Real, NodesAccelerationAndTide<Real>>,
+    add_far_nodes<Real>,
+    add_expansion<Real>,
     add<Real, Potential<Real>>,
 };
 

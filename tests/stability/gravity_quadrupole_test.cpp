@@ -76,7 +76,8 @@ TEST_P(Quadrupoles, G13_TheRootsSecondMomentsAreTheDirectSum)
     Matrix3d sum = Matrix3d::Zero();
     for (const PointMass& body : world_.bodies)
         sum += body.mass * (body.position - root.centre) * (body.position - root.centre).transpose();
-    EXPECT_LE((world_.view.second_moments.front().matrix() - sum).norm(), 1e-10 * sum.norm());
+    EXPECT_LE((world_.view.nodes.front().mass * world_.view.second_moments.front().matrix() - sum).norm(),
+              1e-10 * sum.norm());
 }
 
 TEST_P(Quadrupoles, BeatMonopolesWithFewerPairsAtTheDefaultTolerance)

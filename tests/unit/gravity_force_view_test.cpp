@@ -153,7 +153,8 @@ TEST(ForceView, ANodesSecondMomentsAreThoseOfItsBodies)
                 const Vector3d offset = view.position(body) - node.centre;
                 sum += view.mass[body] * offset * offset.transpose();
             }
-            EXPECT_LE((view.second_moments[index].matrix() - sum).norm(), 1e-12 * (1 + sum.norm()));
+            EXPECT_LE((node.mass * view.second_moments[index].matrix() - sum).norm(),
+                      1e-12 * (1 + sum.norm()));
         }
     }
 }

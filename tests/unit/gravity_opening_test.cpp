@@ -10,7 +10,12 @@ namespace {
 
 class OpeningTest : public testing::Test {
 protected:
-    OpeningTest() : world_(cloud(1, 1, [](Random&) { return Vector3d(0, 0, 0); })), pulls_{0} {}
+    OpeningTest()
+        : world_(cloud(1, 1, [](Random&) { return Vector3d(0, 0, 0); })),
+          targets_(world_.view.nodes.front()), pulls_{0}
+    {
+        targets_.q = 0;
+    }
 
     /// Whether a node of this radius and mass at x = distance may act as one body.
     bool acts(double radius, double distance, double mass = 1, double q = 0, double blur = 0)
@@ -27,12 +32,15 @@ protected:
         node.mass = mass;
         node.q = q;
         node.blur = float(blur);
-        const Opening opening(world_.view, {0, 1, 0, 0}, settings_, G, pulls_);
-        return opening.role_of(node);
+        targets_.radius = float(reach_);
+        const Allowance allowance = allowance_for(world_.view, targets_, settings_, G, pulls_, 0);
+        return Opening(world_.view, targets_, settings_, allowance).role_of(node);
     }
 
     static constexpr double G = 2;
     AttractingWorld world_;
+    ForceView::Node targets_;
+    double reach_ = 0; ///< that the targets count as having
     GravitySettings settings_{
         .multipoles = Multipoles::Monopole, .opening_angle = 0.5, .force_tolerance = 0.01};
     AlignedVector<double> pulls_; ///< of the one body
@@ -119,6 +127,24 @@ TEST_F(OpeningTest, NodesTakeSecondMomentsWhereTheirMassAloneWouldMissHalfOfWhat
     EXPECT_EQ(role(0.5, 1, 512.01, 1), NodeRole::Opened);
     pulls_[0] = 1e30;
     EXPECT_EQ(role(0.901, 1), NodeRole::Opened);
+}
+
+// Twice the allowance of 0.01 * 200 / G is 2: m (r + R)^4 / d^6 <= 2, with r = R = 0.25 and d = 1 for m = 32.
+TEST_F(OpeningTest, NodesAreFarWhereBothRadiiAreSmallBesideTheDistance)
+{
+    settings_.multipoles = Multipoles::Quadrupole;
+    pulls_[0] = 200;
+    reach_ = 0.25;
+    EXPECT_EQ(role(0.25, 1, 32), NodeRole::Far);
+    EXPECT_NE(role(0.25, 1, 32.001), NodeRole::Far);
+    EXPECT_EQ(role(0.25, 1, 32.001, 0.01), NodeRole::Far) << "softening makes the pull and its error smaller";
+    EXPECT_EQ(role(0.649, 1, 1e-9), NodeRole::Far);
+    EXPECT_NE(role(0.651, 1, 1e-9), NodeRole::Far) << "within the guard";
+    reach_ = 0;
+    EXPECT_EQ(role(0.25, 1, 2), NodeRole::Point) << "targets in one place need no expansion";
+    reach_ = 0.25;
+    settings_.multipoles = Multipoles::Monopole;
+    EXPECT_EQ(role(0.25, 1, 0.01), NodeRole::Point);
 }
 
 // Neither the fourth power of the blur nor that of the radius is above its bound here.
