@@ -16,8 +16,10 @@ constexpr double leave = 0.04;                        ///< and above which it no
 constexpr double reached = 0.05;                      ///< error up to which the target counts as met
 /// Frames in which clusters begin to follow: splits are swept over 8 frames, merges over 16.
 constexpr double lag_frames = 6;
-/// Frames whose births are taken into account: those in which small clusters have merged.
-constexpr double foresight_frames = 10;
+/// Frames whose births are taken into account: those until a size decided now is that of most clusters, a
+/// round of merges and some. With 10 a stream that fills exceeds the target by a sixth, with 24 it stays
+/// below.
+constexpr double foresight_frames = 20;
 /// Largest differences, of output and lagged output and of crowding and the mean of its last frames, at which
 /// the fill is learned: either the clusters have followed, or they do not.
 constexpr double steady = 0.03, stuck = 0.005;

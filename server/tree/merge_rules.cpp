@@ -11,36 +11,6 @@
 namespace slod {
 namespace {
 
-/// A cluster as its particles' number and places have it, all weighing the same.
-struct Crowd {
-    double number;
-    Vector3d centre;
-    Matrix3d moments;
-};
-
-Crowd crowd(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
-{
-    const ClusterTable& clusters = store.clusters;
-    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
-    const Moments& count = clusters.counting_moments(slot);
-    const Moments& mass = clusters.mass(slot) > 0 ? clusters.moments[slot] : count;
-    const Vector3d off_centre = map.a * (count.mean_offset() - mass.mean_offset()) +
-                                map.b * (count.mean_velocity() - mass.mean_velocity());
-    const auto number = double(clusters.count[slot]);
-    return {number, clusters.position[slot] + off_centre,
-            number / count.weight * map_position_moments(count, map).matrix()};
-}
-
-/// Position moments of both together, every particle weighing the same.
-Symmetric3 union_moments(const ClusterStore& store, std::size_t a, std::size_t b, std::uint64_t frame)
-{
-    const Crowd one = crowd(store, a, frame);
-    const Crowd other = crowd(store, b, frame);
-    const Vector3d apart = other.centre - one.centre;
-    const double reduced = one.number * other.number / (one.number + other.number);
-    return Symmetric3::of(one.moments + other.moments + reduced * apart * apart.transpose());
-}
-
 /// A direction in a plane; products of them add angles.
 struct Turn {
     double cosine, sine;
@@ -91,6 +61,40 @@ VelocityBall velocity_ball(const ClusterStore& store, std::size_t slot, std::uin
     return {mean, mean.norm(), velocity_bound(store.clusters, store.rule, slot, frame)};
 }
 
+VelocityBall enclosing_ball(const VelocityBall& a, const VelocityBall& b)
+{
+    const Vector3d apart = b.mean - a.mean;
+    const double distance = apart.norm();
+    if (distance + b.radius <= a.radius)
+        return a;
+    if (distance + a.radius <= b.radius)
+        return b;
+    const double radius = (distance + a.radius + b.radius) / 2;
+    const Vector3d mean = distance > 0 ? a.mean + (radius - a.radius) / distance * apart : a.mean;
+    return {mean, mean.norm(), radius};
+}
+
+Crowd crowd_of(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
+{
+    const ClusterTable& clusters = store.clusters;
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    const Moments& count = clusters.counting_moments(slot);
+    const Moments& mass = clusters.mass(slot) > 0 ? clusters.moments[slot] : count;
+    const Vector3d off_centre = map.a * (count.mean_offset() - mass.mean_offset()) +
+                                map.b * (count.mean_velocity() - mass.mean_velocity());
+    const auto number = double(clusters.count[slot]);
+    return {number, clusters.position[slot] + off_centre,
+            number / count.weight * map_position_moments(count, map).matrix()};
+}
+
+Crowd operator+(const Crowd& a, const Crowd& b)
+{
+    const Vector3d apart = b.centre - a.centre;
+    const double number = a.number + b.number;
+    return {number, a.centre + b.number / number * apart,
+            a.moments + b.moments + a.number * b.number / number * apart * apart.transpose()};
+}
+
 MergeRules::MergeRules(const RegionSettings& region)
     : region_(region), least_cosine_(portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine)
 {}
@@ -110,12 +114,17 @@ bool MergeRules::move_alike(const VelocityBall& a, const VelocityBall& b) const
            widest.cosine >= least_cosine_ - cosine_rounding; // below 0: more than half a turn
 }
 
-bool MergeRules::fit(const ClusterStore& store, ClusterSlot a, ClusterSlot b, std::uint64_t frame) const
+bool MergeRules::limit_breadth() const
 {
-    if (!std::isfinite(region_.max_breadth))
-        return true;
-    const std::uint32_t size = store.clusters.count[a.index] + store.clusters.count[b.index];
-    return !wider_than(breadth_goal(region_, size), union_moments(store, a.index, b.index, frame), size);
+    return std::isfinite(region_.max_breadth);
+}
+
+bool MergeRules::fit(const Crowd& crowd, std::uint32_t parts) const
+{
+    // A part has no more than all of the scatter about the centre, and 1 / parts of the particles.
+    const double limit =
+        breadth_goal(region_, std::uint32_t(crowd.number) / parts) / std::sqrt(double(parts));
+    return !wider_than(limit, Symmetric3::of(crowd.moments), crowd.number);
 }
 
 bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
@@ -126,7 +135,8 @@ bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterS
     return clusters.count[a.index] + clusters.count[b.index] <= std::uint32_t(region.max_cluster_size) &&
            rules.move_alike(velocity_ball(store, a.index, frame, reference),
                             velocity_ball(store, b.index, frame, reference)) &&
-           rules.fit(store, a, b, frame);
+           (!rules.limit_breadth() ||
+            rules.fit(crowd_of(store, a.index, frame) + crowd_of(store, b.index, frame)));
 }
 
 bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,

@@ -18,6 +18,21 @@ struct VelocityBall {
 VelocityBall velocity_ball(const ClusterStore& store, std::size_t slot, std::uint64_t frame,
                            const Vector3d& reference);
 
+/// The smallest ball that holds both.
+VelocityBall enclosing_ball(const VelocityBall& a, const VelocityBall& b);
+
+/// Particles as their number and places have it, all weighing the same.
+struct Crowd {
+    double number = 0;
+    Vector3d centre{0, 0, 0};
+    Matrix3d moments = Matrix3d::Zero(); ///< of position about the centre, summed
+};
+
+Crowd crowd_of(const ClusterStore& store, std::size_t slot, std::uint64_t frame);
+
+/// Both as one.
+Crowd operator+(const Crowd& a, const Crowd& b);
+
 /// A region's rules for merges, ready for many pairs.
 class MergeRules {
 public:
@@ -27,8 +42,12 @@ public:
     /// Parallel velocities are within any angle, whatever their rounding.
     bool move_alike(const VelocityBall& a, const VelocityBall& b) const;
 
-    /// Whether both together are no wider than the region allows.
-    bool fit(const ClusterStore& store, ClusterSlot a, ClusterSlot b, std::uint64_t frame) const;
+    /// Whether the breadth of a cluster has a limit: without one, any crowd fits.
+    bool limit_breadth() const;
+
+    /// Whether no cluster is wider than the region allows when the crowd is divided into `parts` of equal
+    /// number, however that is done.
+    bool fit(const Crowd& crowd, std::uint32_t parts = 1) const;
 
 private:
     const RegionSettings& region_;

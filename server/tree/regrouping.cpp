@@ -29,11 +29,11 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
     actions_.reserve(clusters);
     targets_.reserve(clusters);
     searches_.reserve(clusters / block + 1);
-    pairing_.reserve(clusters);
+    gathering_.reserve(clusters);
     split_memory_.reserve(clusters);
     revisions_.reserve(tree.subtrees.size());
     held_.reserve(context_.store.clusters.columns.withheld ? clusters : 0);
-    for (auto* list : {&crossing_, &splitting_, &merging_pairs_})
+    for (auto* list : {&crossing_, &splitting_})
         list->reserve(clusters);
 }
 
@@ -215,20 +215,27 @@ void Regrouping::form_dissolved(SlodTree& tree, Vector3d Particle::*key)
     }
 }
 
-/// Lets both clusters of each merging pair go at their common velocity, by mass or, when all are massless, by
-/// number: their members keep what they have about it, and just the energy of the two's relative motion is
-/// lost.
+/// Lets the clusters of each merging group go at their common velocity, by mass or, when all are massless, by
+/// number: their members keep what they have about it, and just the energy of the clusters' relative motion
+/// is lost.
 void Regrouping::share_velocities()
 {
     ClusterTable& clusters = context_.store.clusters;
-    for (std::size_t pair = 0; pair < merging_pairs_.size(); pair += 2) {
-        const std::size_t a = merging_pairs_[pair].index, b = merging_pairs_[pair + 1].index;
-        const bool massless = !(clusters.mass(a) + clusters.mass(b) > 0);
-        const double of_a = massless ? clusters.count[a] : clusters.mass(a);
-        const double of_b = massless ? clusters.count[b] : clusters.mass(b);
-        const Vector3d apart = clusters.mean_velocity(b) - clusters.mean_velocity(a);
-        clusters.velocity[a] += of_b / (of_a + of_b) * apart;
-        clusters.velocity[b] -= of_a / (of_a + of_b) * apart;
+    for (const Gathering::Group& group : gathering_.groups) {
+        const auto merging = std::span(gathering_.clusters).subspan(group.first, group.clusters);
+        const bool massless = std::all_of(merging.begin(), merging.end(),
+                                          [&](ClusterSlot slot) { return !(clusters.mass(slot.index) > 0); });
+        const auto weight = [&](ClusterSlot slot) {
+            return massless ? double(clusters.count[slot.index]) : clusters.mass(slot.index);
+        };
+        double sum = 0;
+        Vector3d momentum(0, 0, 0);
+        for (const ClusterSlot slot : merging) {
+            sum += weight(slot);
+            momentum += weight(slot) * clusters.mean_velocity(slot.index);
+        }
+        for (const ClusterSlot slot : merging)
+            clusters.velocity[slot.index] += momentum / sum - clusters.mean_velocity(slot.index);
     }
 }
 
@@ -270,24 +277,25 @@ void Regrouping::measure_surroundings(const SlodTree& tree)
 void Regrouping::merge(SlodTree& tree, UpdateCounts& counts)
 {
     measure_surroundings(tree);
-    counts.pair_tests += pairing_.find(tree, context_.store, context_.frame, surroundings_, merging_pairs_);
-    if (merging_pairs_.empty())
+    counts.pair_tests += gathering_.find(tree, context_.store, context_.frame, surroundings_);
+    if (gathering_.groups.empty())
         return;
     const ClusterTable& clusters = context_.store.clusters;
     grouping_.clear();
     std::uint32_t first = 0;
-    for (std::size_t pair = 0; pair < merging_pairs_.size(); pair += 2) {
-        const std::size_t a = merging_pairs_[pair].index, b = merging_pairs_[pair + 1].index;
-        const std::uint32_t count = clusters.count[a] + clusters.count[b];
-        grouping_.groups.push_back(
-            {.pool = {clusters.region[a], clusters.pool[a]}, .first = first, .count = count, .clusters = 1});
-        first += count;
+    for (const Gathering::Group& group : gathering_.groups) {
+        const std::size_t seed = gathering_.clusters[group.first].index;
+        grouping_.groups.push_back({.pool = {clusters.region[seed], clusters.pool[seed]},
+                                    .first = first,
+                                    .count = group.members,
+                                    .clusters = group.parts});
+        first += group.members;
+        counts.merges += group.clusters - group.parts;
     }
     if (merged_velocities_ == MergedVelocities::Collapse)
         share_velocities();
-    dissolve(tree, grouping_, merging_pairs_, context_);
+    dissolve(tree, grouping_, gathering_.clusters, context_);
     form_dissolved(tree, &Particle::position);
-    counts.merges += merging_pairs_.size() / 2;
     counts.reformed_members += first;
 }
 

@@ -6,8 +6,8 @@
 
 #include "cluster/motion.hpp"
 #include "tree/crowded.hpp"
+#include "tree/gathering.hpp"
 #include "tree/grouping.hpp"
-#include "tree/pairing.hpp"
 #include "tree/slod_tree.hpp"
 
 namespace slod {
@@ -15,7 +15,7 @@ namespace slod {
 /// The update of clusters whose maps do not age: those of exact flow maps, of rigid motion (O'Brien et
 /// al. 2001, sections 4.1 and 4.3) and single particles. A cluster whose centre crosses into another leaf
 /// or region moves to that one's pool; one that has become too large or too wide is split; where the tree has
-/// `merging`, two of one pool merge when together they are small enough and move alike.
+/// `merging`, those of one pool merge that together are small enough and move alike.
 class Regrouping {
 public:
     Regrouping(const MotionSettings& motion, const UpdateContext& context)
@@ -77,11 +77,11 @@ private:
     MergedVelocities merged_velocities_;
     UpdateContext context_;
     Grouping grouping_;
-    Pairing pairing_;
+    Gathering gathering_;
     std::vector<Action> actions_;  ///< by slot
     std::vector<PoolRef> targets_; ///< by slot, of those that cross
     std::vector<Search> searches_; ///< by block of slots
-    std::vector<ClusterSlot> crossing_, splitting_, merging_pairs_;
+    std::vector<ClusterSlot> crossing_, splitting_;
     std::vector<HeldVelocity> held_; ///< by cluster that is split, if any may hold one
     SplitMemory split_memory_;
     std::vector<Revision> revisions_;    ///< by region

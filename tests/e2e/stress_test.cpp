@@ -90,7 +90,7 @@ TEST_F(Stress, ASmallCrowdOfEveryKindLeavesTheServerAndItsStateAsTheyShouldBe)
 TEST_F(Stress, CommandsThatNoClientShouldSendAreEachAnsweredAndChangeNothing)
 {
     const char* const asked = std::getenv("SLOD_STRESS_COMMANDS");
-    const std::string count = asked ? asked : "2000";
+    const std::string count = asked ? asked : "4000";
     Child running(server());
     ASSERT_EQ(
         load({"--subscribers", "0",   "--commanders", "4",   "--storm",     "20",  "--malformed", "400",

@@ -191,8 +191,9 @@ TEST(Paper, A43_WhatTheViewerLooksAtIsFineTheRimLessAndTheRestCoarse)
         EXPECT_EQ(clusters_in_wrong_regions(simulation, snapshot), 0U);
         const RegionLoad centre = load_of(simulation, snapshot, "centre");
         EXPECT_GT(centre.particles, 50U);
-        // Clusters that come in are split within eight frames.
-        EXPECT_GE(double(centre.clusters), 0.95 * double(centre.particles));
+        // Clusters that come in are split within eight frames: one of the rim's eight may have done so just
+        // now.
+        EXPECT_GE(centre.clusters + 7, centre.particles);
         const double rim = mean_size(load_of(simulation, snapshot, "periphery"));
         EXPECT_GE(rim, 4);
         EXPECT_LE(rim, 8);

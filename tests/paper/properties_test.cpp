@@ -167,7 +167,7 @@ double largest_deviation(BinBy bin_by)
         particle.velocity += Vector3d(1, 0, 0);
         particle.mass = particle.id % 2 == 0 ? 1e-3F : 1e3F;
     }
-    RigidRules rules{.background = {.max_cluster_size = 8, .speed_ratio = 2, .bin_by = bin_by},
+    RigidRules rules{.background = {.max_cluster_size = 2, .speed_ratio = 2, .bin_by = bin_by},
                      .regions = {}};
     rules.background.velocity_reference = VelocityReference::Rest;
     RigidWorld world(rules, particles, true);
