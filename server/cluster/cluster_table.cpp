@@ -35,13 +35,16 @@ void for_each_column(ClusterTable& table, const Visitor& visit)
         visit(table.next_expiry);
     if (table.columns.acceleration) {
         visit(table.acceleration);
-        visit(table.variance);
         visit(table.pull);
     }
+    if (table.columns.variance())
+        visit(table.variance);
     if (table.columns.withheld)
         visit(table.withheld);
     if (table.columns.tide)
         visit(table.tide);
+    if (table.columns.turning)
+        visit(table.turning);
 }
 
 } // namespace

@@ -27,6 +27,9 @@ struct ClusterTable {
         bool counting_moments = false; ///< when masses differ or are all 0, so that breadth counts particles
         bool expiry = false;
         bool withheld = false; ///< where clusters may move by their first particle's velocity
+        bool turning = false;  ///< where accelerations have a curl
+
+        bool variance() const { return acceleration || tide; }
     };
 
     explicit ClusterTable(const Columns& asked) : columns(asked) {}
@@ -53,15 +56,16 @@ struct ClusterTable {
     AlignedVector<std::uint16_t> region;
     AlignedVector<PoolId> pool;                ///< of the region's subtree
     AlignedVector<ClusterSlot> next, previous; ///< in the pool's list
-    /// |a| by gravity at the last evaluation; of clusters formed since, the mean of those their members come
-    /// from. 0: none is known. columns.acceleration
+    /// |a| at the last evaluation, by gravity where there is any, else by fields; of clusters formed since,
+    /// the mean of those their members come from. 0: none is known. columns.acceleration
     AlignedVector<double> pull;
 
     // Derived anew each frame from the state.
     AlignedVector<Vector3d> acceleration; ///< columns.acceleration
-    AlignedVector<Symmetric3> tide;       ///< da/dx without the closure; columns.tide
+    AlignedVector<Symmetric3> tide;       ///< symmetric part of da/dx without the closure; columns.tide
+    AlignedVector<Vector3d> turning;      ///< half the curl of a; columns.turning
     AlignedVector<double> closure;        ///< self-gravity of the members, T_self = -closure 1; columns.map
-    AlignedVector<double> variance;       ///< trace of the position covariance; columns.acceleration
+    AlignedVector<double> variance;       ///< trace of the position covariance; columns.variance()
 
     std::size_t slot_count() const { return count.size(); }
     std::size_t slot_capacity() const { return position.capacity(); } ///< rows without taking memory
@@ -75,6 +79,19 @@ struct ClusterTable {
     bool holds_velocity(std::size_t slot) const { return columns.withheld && !withheld[slot].isZero(0); }
     double mass(std::size_t slot) const { return moments[slot].weight; }
     ClusterId id(std::size_t slot) const { return {{std::uint32_t(slot)}, generation[slot]}; }
+
+    /// da/dx about the cluster, without the members' own attraction. Needs columns.tide.
+    Matrix3d gradient(std::size_t slot) const
+    {
+        Matrix3d gradient = tide[slot].matrix();
+        if (columns.turning) {
+            const Vector3d& w = turning[slot];
+            Matrix3d turn;
+            turn << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+            gradient += turn;
+        }
+        return gradient;
+    }
 
     /// The moments that weigh every member alike: what decides how wide a cluster looks.
     const Moments& counting_moments(std::size_t slot) const

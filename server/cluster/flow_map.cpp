@@ -1,13 +1,28 @@
 #include "cluster/flow_map.hpp"
 
+#include <Eigen/LU>
+
 #include "core/assert.hpp"
 #include "core/portable_math.hpp"
 
 namespace slod {
+namespace {
 
-void kick(FlowMap& map, double step, const Symmetric3& tide)
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+Matrix6d whole(const MapBlocks& map)
 {
-    const Matrix3f pull = (step * tide.matrix()).cast<float>();
+    Matrix6d matrix;
+    matrix << map.a, map.b, map.c, map.d;
+    return matrix;
+}
+
+} // namespace
+
+void kick(FlowMap& map, double step, const Matrix3d& tide)
+{
+    const Matrix3f pull = (step * tide).cast<float>();
     map.c += pull + pull * map.a_minus_1;
     map.d_minus_1 += pull * map.b;
 }
@@ -26,6 +41,12 @@ void propagate(FlowMap& map, const Propagator& step)
 
 MapBlocks::Offset MapBlocks::inverse(const Offset& now) const
 {
+    if (!conformal) {
+        Vector6d target;
+        target << now.position, now.velocity;
+        const Vector6d solved = whole(*this).partialPivLu().solve(target);
+        return {solved.head<3>(), solved.tail<3>()};
+    }
     const auto approximate = [&](const Offset& target) -> Offset {
         return {(d.transpose() * target.position - b.transpose() * target.velocity) / decay,
                 (a.transpose() * target.velocity - c.transpose() * target.position) / decay};
@@ -36,6 +57,11 @@ MapBlocks::Offset MapBlocks::inverse(const Offset& now) const
     formed.position += correction.position;
     formed.velocity += correction.velocity;
     return formed;
+}
+
+double MapBlocks::volume() const
+{
+    return whole(*this).partialPivLu().determinant();
 }
 
 MapBlocks blocks_of(const FlowMap& map, double decay)
@@ -65,7 +91,9 @@ MapBlocks MapRule::blocks(std::uint64_t age_frames, const FlowMap* full) const
         return {};
     if (kind == MapKind::Full) {
         SLOD_ASSERT(full != nullptr);
-        return blocks_of(*full, decay(age_frames));
+        MapBlocks blocks = blocks_of(*full, conformal ? decay(age_frames) : 1.0);
+        blocks.conformal = conformal;
+        return blocks;
     }
     MapBlocks blocks;
     blocks.b = drag_drift(drag, double(age_frames) * step) * Matrix3d::Identity();

@@ -32,7 +32,11 @@ struct FlowMap {
 };
 
 /// Tangent of a kick by `step` in a field with gradient `tide`: v += step * a(x).
-void kick(FlowMap& map, double step, const Symmetric3& tide);
+void kick(FlowMap& map, double step, const Matrix3d& tide);
+inline void kick(FlowMap& map, double step, const Symmetric3& tide)
+{
+    kick(map, step, tide.matrix());
+}
 
 /// The exact flow of one time step in uniform gravity, linear drag and uniform wind, which is affine:
 /// x += drift v + shift,  v = decay v + gain.
@@ -58,7 +62,9 @@ struct MapBlocks {
     Matrix3d b = Matrix3d::Zero();
     Matrix3d c = Matrix3d::Zero();
     Matrix3d d = Matrix3d::Identity();
-    double decay = 1; ///< exp(-k age): M^T J M = decay J, as drag shrinks phase space alike everywhere
+    /// M^T J M = decay J, as where tides are symmetric and one drag shrinks phase space everywhere alike.
+    bool conformal = true;
+    double decay = 1; ///< exp(-k age), of conformal maps
 
     /// An offset in position and in velocity.
     struct Offset {
@@ -72,8 +78,11 @@ struct MapBlocks {
 
     /// The offset that forward() carries to `now`: the conformally symplectic inverse
     /// [[D^T, -B^T], [-C^T, A^T]] / decay, sharpened by one step of iterative refinement since the
-    /// float map is symplectic to its own rounding only.
+    /// float map is symplectic to its own rounding only. Of any other map, by elimination.
     Offset inverse(const Offset& now) const;
+
+    /// The determinant: what a volume of phase space has grown or shrunk to; decay^3 of a conformal map.
+    double volume() const;
 };
 
 MapBlocks blocks_of(const FlowMap& map, double decay);
@@ -83,8 +92,10 @@ struct MapRule {
     MapKind kind = MapKind::Identity;
     double drag = 0; ///< k, 1 / time
     double step = 0; ///< time of one frame
+    /// Whether full maps are; not where an acceleration has a curl, or drag or wind depends on the place.
+    bool conformal = true;
 
-    /// exp(-k age), which every map of this age shrinks phase space by.
+    /// exp(-k age), which every conformal map of this age shrinks phase space by.
     double decay(std::uint64_t age_frames) const;
 
     /// The map of a cluster formed `age_frames` ago; `full` is read only for MapKind::Full.

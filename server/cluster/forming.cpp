@@ -9,7 +9,8 @@
 namespace slod {
 namespace {
 
-/// A map that has shrunk further takes no members: its inverse magnifies the rounding of a stored offset.
+/// A map that has shrunk further, in the mean over its directions, takes no members: its inverse magnifies
+/// the rounding of a stored offset.
 constexpr double least_decay = 1.0 / 16;
 
 /// Mean position and velocity of particles, by mass, or by number when all are massless.
@@ -141,11 +142,14 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
         clusters.counting[slot] = {};
     if (clusters.columns.acceleration) {
         clusters.acceleration[slot].setZero();
-        clusters.variance[slot] = 0;
         clusters.pull[slot] = 0;
     }
+    if (clusters.columns.variance())
+        clusters.variance[slot] = 0;
     if (clusters.columns.tide)
         clusters.tide[slot] = {};
+    if (clusters.columns.turning)
+        clusters.turning[slot].setZero();
 }
 
 /// Bounds the spectral norm from above, and is equal to it for a multiple of the identity.
@@ -226,8 +230,11 @@ bool takes_members(const ClusterStore& store, ClusterSlot cluster, std::uint64_t
 {
     const ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
-    return clusters.stored[slot] < clusters.slab[slot].capacity &&
-           store.rule.decay(frame - clusters.formed_frame[slot]) >= least_decay;
+    if (clusters.stored[slot] >= clusters.slab[slot].capacity)
+        return false;
+    if (store.rule.conformal)
+        return store.rule.decay(frame - clusters.formed_frame[slot]) >= least_decay;
+    return clusters.blocks(slot, store.rule, frame).volume() >= least_decay * least_decay * least_decay;
 }
 
 void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& particle, std::uint64_t frame)

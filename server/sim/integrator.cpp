@@ -16,10 +16,8 @@ void kick_cluster(ClusterTable& clusters, std::size_t slot, double step)
     clusters.velocity[slot] += step * clusters.acceleration[slot];
     if (!clusters.columns.map)
         return;
-    Symmetric3 tide = clusters.tide[slot];
-    tide.xx -= clusters.closure[slot];
-    tide.yy -= clusters.closure[slot];
-    tide.zz -= clusters.closure[slot];
+    Matrix3d tide = clusters.gradient(slot);
+    tide.diagonal().array() -= clusters.closure[slot];
     kick(clusters.map[slot], step, tide);
 }
 
