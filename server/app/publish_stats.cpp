@@ -81,8 +81,7 @@ void StatsEncoder::encode_counts(const FrameCounts& counts)
         entry.count = count;
     };
     add("pools", counts.pools);
-    for (const EventCount& event : event_counts)
-        add(event.name, counts.*event.count);
+    for_each_event(counts, add);
     wire::lend(message_.counts, counts_);
 }
 

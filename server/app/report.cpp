@@ -47,8 +47,8 @@ Json phases_json(const Plan& plan, const RunSummary& summary)
 Json counts_json(const FrameCounts& events)
 {
     Json counts = Json::object();
-    for (const EventCount& event : event_counts)
-        counts[std::string(event.name)] = events.*event.count;
+    for_each_event(events,
+                   [&](std::string_view name, std::uint64_t count) { counts[std::string(name)] = count; });
     return counts;
 }
 

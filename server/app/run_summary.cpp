@@ -24,8 +24,7 @@ void RunSummary::add(const Snapshot& snapshot, double work_ms)
     for (std::size_t phase = 0; phase < phase_count; ++phase)
         phase_ms[phase].add(snapshot.profile.milliseconds[phase]);
 
-    for (const EventCount& event : event_counts)
-        events.*event.count += snapshot.counts.*event.count;
+    add_events(events, snapshot.counts);
 }
 
 Drift drift(const ConservedQuantities& start, const ConservedQuantities& end)

@@ -17,7 +17,7 @@ struct RunSummary {
     std::uint64_t clusters = 0;   ///< at the end
     std::uint64_t state_hash = 0; ///< at the end
     double wall_s = 0;            ///< first frame's start to last frame's end, the pacer's waits included
-    FrameCounts events;           ///< event_counts of it: totals over the run
+    FrameCounts events;           ///< for_each_event() of it: totals over the run
     Vector3d unanswered_force{0, 0, 0}; ///< at the end: Snapshot's
     ConservedQuantities conserved_start;
     ConservedQuantities conserved_end;

@@ -45,6 +45,9 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"uniform_gravity", "The same acceleration for everything."}, simulation.uniform_gravity);
     visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);
     visit(Section{"uniform_wind", "Moving air; needs linear_drag."}, simulation.uniform_wind);
+    for_each_field_table(simulation.fields, [&]<class F>(typename F::Table& table) {
+        visit(Section{F::name, F::help}, table);
+    });
     visit(Section{"collider", "Solids that particles bounce off."}, simulation.colliders);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
     visit(Section{"limits", "What the scene may grow to."}, simulation.limits);

@@ -145,6 +145,9 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("gravity", wanted.gravity.has_value() == present.gravity.has_value());
     fixed("uniform_gravity", wanted.uniform_gravity.has_value() == present.uniform_gravity.has_value());
     fixed("uniform_wind", wanted.uniform_wind.has_value() == present.uniform_wind.has_value());
+    for_each_field_table(wanted.fields, [&]<class F>(const typename F::Table& table) {
+        fixed(F::name, table == present.fields.of<F>());
+    });
     if (!found.empty())
         return found;
     s.forces_stale = s.forces_stale || wanted.gravity != present.gravity;

@@ -30,6 +30,14 @@ std::string table(const std::string& title, const std::vector<PlannedColumn>& co
     return text + line("  %-34.*s %.*s\n", "together", std::to_string(total));
 }
 
+std::string what_it_does(const PlannedEffect& effect)
+{
+    const std::string left_out =
+        effect.powerless == 0 ? ""
+                              : "strength 0 left out: " + std::to_string(effect.powerless) + " of them, ";
+    return left_out + std::string(effect.active ? effect.acts_on_clusters : "absent");
+}
+
 std::string updates(const Plan& plan)
 {
     if (plan.clocked)
@@ -52,7 +60,7 @@ std::string explain(const Plan& plan, const SimulationSettings& settings)
         text += line("  %-34.*s %.*s\n", names(Phase{})[phase], plan.runs[phase] ? "runs" : "absent");
     text += "\neffects\n";
     for (const PlannedEffect& effect : plan.effects)
-        text += line("  %-34.*s %.*s\n", effect.name, effect.active ? effect.acts_on_clusters : "absent");
+        text += line("  %-34.*s %.*s\n", effect.name, what_it_does(effect));
     text += "\n" + table("bytes per particle", plan.member_columns);
     text += "\n" + table("bytes per cluster", plan.cluster_columns);
     return text;

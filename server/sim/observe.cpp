@@ -37,8 +37,12 @@ void Simulation::State::observe(const Request& request)
     snapshot.detail = tree.detail;
     count_regions();
     snapshot.conserved = {};
-    if (request.conserved)
+    snapshot.field_energy = 0;
+    if (request.conserved) {
         snapshot.conserved = conserved_quantities(store, frame);
+        if (field_forces)
+            snapshot.field_energy = field_forces->potential_energy(store, frame);
+    }
     if (request.clusters)
         copy_clusters();
     else

@@ -5,6 +5,7 @@
 
 #include "cluster/cluster_table.hpp"
 #include "cluster/member_pool.hpp"
+#include "effects/fields/field_set.hpp"
 
 namespace slod {
 namespace {
@@ -26,9 +27,16 @@ void decide_masses(Plan& plan, const SimulationSettings& settings, const Particl
     plan.counting_moments = plan.several_masses || !(plan.uniform_mass > 0);
 }
 
+void decide_fields(Plan& plan, const SimulationSettings& settings)
+{
+    const FieldSet<ForceFields> forces(settings.fields, {settings.seed});
+    plan.field_forces = !forces.empty();
+    plan.turning = !forces.symmetric();
+}
+
 void decide_map(Plan& plan, const SimulationSettings& settings)
 {
-    const bool position_dependent = settings.gravity.has_value();
+    const bool position_dependent = settings.gravity.has_value() || plan.field_forces;
     const Motion motion = settings.motion.motion;
     const auto single = [](const RegionSettings& partition) { return partition.max_cluster_size < 2; };
     const auto of_singles = [&](const RegionOfInterest& region) { return single(region.partition); };
@@ -42,6 +50,7 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
         plan.map = MapKind::Scalar;
     plan.map_is_exact = plan.unclustered || (plan.map == MapKind::Scalar && !position_dependent);
     plan.clocked = !plan.map_is_exact && plan.map != MapKind::Identity;
+    plan.turning = plan.turning && plan.clocked;
     const auto by_first = [](const RegionSettings& partition) {
         return partition.cluster_velocity == ClusterVelocity::First;
     };
@@ -56,19 +65,19 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
 void decide_phases(Plan& plan, const SimulationSettings& settings)
 {
     const auto runs = [&](Phase phase, bool needed) { plan.runs[std::size_t(phase)] = needed; };
-    const bool kicked = settings.gravity.has_value();
+    const bool kicked = settings.gravity.has_value() || plan.field_forces;
     runs(Phase::Commands, true);
     runs(Phase::OpenKick, kicked);
     runs(Phase::Propagate, true);
     runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives);
     runs(Phase::Update, kicked || !plan.unclustered || !settings.regions.empty());
-    runs(Phase::Moments, kicked);
+    runs(Phase::Moments, settings.gravity.has_value() || plan.clocked);
     runs(Phase::Forces, kicked);
     runs(Phase::CloseKick, kicked);
     runs(Phase::Snapshot, true);
 }
 
-void list_columns(Plan& plan, const SimulationSettings& settings)
+void list_columns(Plan& plan)
 {
     plan.member_columns = {{"offset and relative velocity", sizeof(FormedOffset)}, {"particle id", 8}};
     const auto member = [&](bool needed, std::string_view name, std::size_t bytes) {
@@ -92,8 +101,27 @@ void list_columns(Plan& plan, const SimulationSettings& settings)
     cluster(plan.counting_moments, "moments by number", sizeof(Moments));
     cluster(plan.finite_lives, "next expiry", 4);
     cluster(plan.withholding, "velocity withheld", sizeof(Vector3d));
-    cluster(settings.gravity.has_value(), "acceleration and variance", sizeof(Vector3d) + 2 * sizeof(double));
+    cluster(plan.has(Phase::Forces), "acceleration and variance", sizeof(Vector3d) + 2 * sizeof(double));
     cluster(plan.clocked, "tidal tensor", sizeof(Symmetric3));
+    cluster(plan.turning, "curl of the acceleration", sizeof(Vector3d));
+    cluster(plan.field_forces, "fields", sizeof(FieldValue));
+}
+
+void list_effects(Plan& plan, const SimulationSettings& settings)
+{
+    plan.effects = {{"gravity", settings.gravity.has_value(), "linearised"},
+                    {"uniform_gravity", settings.uniform_gravity.has_value(), "linear"},
+                    {"linear_drag", settings.linear_drag.has_value(), "linear"},
+                    {"uniform_wind", settings.uniform_wind.has_value(), "linear"}};
+    for_each_field_table(settings.fields, [&]<class F>(const typename F::Table& table) {
+        const auto all = elements(table);
+        const auto acts = [&](const auto& each) { return F(each, {settings.seed}).acts(); };
+        const auto active = std::size_t(std::count_if(all.begin(), all.end(), acts));
+        plan.effects.push_back({F::name, active > 0, "linearised", all.size() - active});
+    });
+    plan.effects.push_back({"collider", !settings.colliders.empty(), "per member"});
+    plan.effects.push_back({"emitter", !settings.emitters.empty(), "births"});
+    plan.effects.push_back({"lifetime", plan.finite_lives, "deaths"});
 }
 
 } // namespace
@@ -107,16 +135,11 @@ Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial
     plan.finite_lives = std::any_of(settings.emitters.begin(), settings.emitters.end(), mortal) ||
                         std::any_of(initial.begin(), initial.end(), expires);
     decide_masses(plan, settings, initial);
+    decide_fields(plan, settings);
     decide_map(plan, settings);
     decide_phases(plan, settings);
-    list_columns(plan, settings);
-    plan.effects = {{"gravity", settings.gravity.has_value(), "linearised"},
-                    {"uniform_gravity", settings.uniform_gravity.has_value(), "linear"},
-                    {"linear_drag", settings.linear_drag.has_value(), "linear"},
-                    {"uniform_wind", settings.uniform_wind.has_value(), "linear"},
-                    {"collider", !settings.colliders.empty(), "per member"},
-                    {"emitter", !settings.emitters.empty(), "births"},
-                    {"lifetime", plan.finite_lives, "deaths"}};
+    list_columns(plan);
+    list_effects(plan, settings);
     return plan;
 }
 

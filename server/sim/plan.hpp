@@ -23,6 +23,7 @@ struct PlannedEffect {
     std::string_view name;
     bool active;
     std::string_view acts_on_clusters; ///< "linear", "linearised", "per member", "births" or "deaths"
+    std::size_t powerless = 0;         ///< tables of it that are left out, as their strength is 0
 };
 
 /// What a scene comes down to: the phases that run, and the columns that exist. Compiled once from the
@@ -36,6 +37,8 @@ struct Plan {
     bool finite_lives = false; ///< particles expire
     bool several_kinds = false;
     bool several_masses = false;
+    bool field_forces = false;     ///< accelerations depend on the place, besides gravity's
+    bool turning = false;          ///< such an acceleration has a curl
     bool withholding = false;      ///< clusters may move by their first particle's velocity
     bool counting_moments = false; ///< masses differ or are all 0: clusters are also weighed by number
     float uniform_mass = 0;        ///< of every particle, unless several_masses

@@ -93,6 +93,16 @@ void check_colliders(const std::vector<ColliderSettings>& colliders, Problems& f
             found.push_back("collider." + std::to_string(i) + "." + problem);
 }
 
+void check_fields(const FieldSettings& fields, double step, Problems& found)
+{
+    for_each_field_table(fields, [&]<class F>(const typename F::Table& table) {
+        const auto all = elements(table);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            for (const std::string& problem : F::problems(all[i], step))
+                found.push_back(key_of<F>(i) + "." + problem);
+    });
+}
+
 void check_lives(const MotionSettings& motion, Problems& found)
 {
     const auto check = [&](const std::string& key, std::uint32_t frames) {
@@ -164,6 +174,7 @@ Problems problems(const SimulationSettings& settings)
     check_units(settings.units, found);
     check_kinds(settings.kinds, found);
     check_colliders(settings.colliders, found);
+    check_fields(settings.fields, settings.time.step, found);
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);

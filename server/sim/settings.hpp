@@ -10,6 +10,7 @@
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
 #include "effects/collider_settings.hpp"
+#include "effects/fields/list.hpp"
 #include "effects/settings.hpp"
 #include "gravity/settings.hpp"
 #include "tree/region.hpp"
@@ -68,6 +69,7 @@ struct SimulationSettings {
     std::optional<UniformGravitySettings> uniform_gravity;
     std::optional<LinearDragSettings> linear_drag;
     std::optional<UniformWindSettings> uniform_wind;
+    FieldSettings fields;
     std::vector<ColliderSettings> colliders;
     std::vector<EmitterSettings> emitters;
     LimitSettings limits;

@@ -9,6 +9,7 @@
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
 #include "effects/collisions.hpp"
+#include "effects/fields/field_set.hpp"
 #include "sim/phase.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -25,6 +26,7 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
     std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
     std::uint64_t nodes_tested = 0; ///< in those walks, whether they may act as one body
+    FieldCounts fields{};           ///< by effect of place, in the order of their list; 0 for absent ones
 };
 
 /// A count of events in a frame, by name.
@@ -33,8 +35,8 @@ struct EventCount {
     std::uint64_t FrameCounts::*count;
 };
 
-/// The only list of them. The other counts (particles, clusters, pools) are levels: their sum over frames
-/// means nothing.
+/// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
+/// levels: their sum over frames means nothing.
 inline constexpr std::array<EventCount, 23> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
@@ -60,6 +62,30 @@ inline constexpr std::array<EventCount, 23> event_counts{{
     {"walks", &FrameCounts::walks},
     {"nodes_tested", &FrameCounts::nodes_tested},
 }};
+
+/// Calls visit(name, count) for all of them; of each effect of place, by its name, for the clusters that it
+/// was evaluated for.
+template <class Visitor>
+void for_each_event(const FrameCounts& counts, Visitor&& visit)
+{
+    for (const EventCount& event : event_counts)
+        visit(event.name, counts.*event.count);
+    std::size_t row = 0;
+    for_each_field_table(FieldSettings{}, [&]<class F>(const typename F::Table&) {
+        visit(F::name, counts.fields[row++].clusters);
+    });
+}
+
+/// Adds the events of a frame to those of others.
+inline void add_events(FrameCounts& sum, const FrameCounts& frame)
+{
+    for (const EventCount& event : event_counts)
+        sum.*event.count += frame.*event.count;
+    for (std::size_t row = 0; row < sum.fields.size(); ++row) {
+        sum.fields[row].calls += frame.fields[row].calls;
+        sum.fields[row].clusters += frame.fields[row].clusters;
+    }
+}
 
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is
 /// published, drawn and tested. Empty unless somebody asked for it in that frame.
@@ -95,6 +121,9 @@ struct Snapshot {
     /// Momentum per time that gravity brings in where regions do not attract those that attract them; 0
     /// otherwise.
     Vector3d unanswered_force{0, 0, 0};
+    /// Potential energy of all particles in the effects of place that have one, where conserved quantities
+    /// were asked for.
+    double field_energy = 0;
     StepProfile profile;             ///< of this frame
     std::vector<RegionLoad> regions; ///< in order of precedence, the background last
     Detail detail;                   ///< that the frame was run at

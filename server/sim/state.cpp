@@ -6,6 +6,7 @@
 
 #include "cluster/sums_problems.hpp"
 #include "core/assert.hpp"
+#include "core/parallel.hpp"
 #include "sim/integrator.hpp"
 
 namespace slod {
@@ -18,19 +19,20 @@ const simd::KernelTable* kernels_named(std::string_view isa)
     return found;
 }
 
-ClusterTable::Columns cluster_columns(const Plan& plan, const SimulationSettings& settings)
+ClusterTable::Columns cluster_columns(const Plan& plan)
 {
     return {.map = plan.map == MapKind::Full,
             .tide = plan.clocked,
-            .acceleration = settings.gravity.has_value(),
+            .acceleration = plan.has(Phase::Forces),
             .counting_moments = plan.counting_moments,
             .expiry = plan.finite_lives,
-            .withheld = plan.withholding};
+            .withheld = plan.withholding,
+            .turning = plan.turning};
 }
 
 MapRule map_rule(const Plan& plan, const UniformFields& fields, double step)
 {
-    return {plan.map, fields.drag, step};
+    return {plan.map, fields.drag, step, !plan.turning};
 }
 
 /// Side of the background's grid cells: the maximum breadth, or, when that is unlimited, a power of two
@@ -85,7 +87,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       tick(options.tick), gravitational_constant(scene.units.gravitational_constant()),
       fields(scene.uniform_gravity, scene.linear_drag, scene.uniform_wind),
       propagator(fields.over(scene.time.step)),
-      store(cluster_columns(plan, scene), {plan.several_masses, plan.several_kinds, plan.finite_lives},
+      store(cluster_columns(plan), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, scene.time.step)),
       tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(scene.motion, context()),
       collisions(collisions_of(scene, plan, fields)),
@@ -95,6 +97,10 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 {
     if (scene.gravity)
         gravitational_constant *= scene.gravity->strength;
+    else
+        gravity.closure = false;
+    if (plan.field_forces)
+        field_forces.emplace(scene.fields, FieldSource{scene.seed}, scene.gravity.has_value());
     set_detail();
     tree.merging = tree.merging || plan.merging;
     store.uniform_mass = plan.uniform_mass;
@@ -106,16 +112,12 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     if (plan.merging && scene.motion.build_respects_limits)
         regrouping.divide_by_velocity(tree, frame);
     make_room();
-    if (scene.gravity) {
-        measure_moments();
-        evaluate_forces();
-    }
+    look_around();
     if (plan.clocked) {
         // The first forces set the clocks; what was formed without them is formed anew.
         UpdateCounts ignored;
         reforming.reform_all(tree, frame, ignored);
-        measure_moments();
-        evaluate_forces();
+        look_around();
     }
     if constexpr (validating)
         SLOD_ASSERT(problems().empty());
@@ -128,12 +130,17 @@ void Simulation::State::open_frame()
     if (tree.unsettled)
         settle(tree);
     make_room();
-    if (forces_stale) {
-        measure_moments();
-        evaluate_forces();
-        forces_stale = false;
-    }
+    if (std::exchange(forces_stale, false))
+        look_around();
     ++frame;
+}
+
+void Simulation::State::look_around()
+{
+    if (plan.has(Phase::Moments))
+        measure_moments();
+    if (plan.has(Phase::Forces))
+        evaluate_forces();
 }
 
 void Simulation::State::make_room()
@@ -152,7 +159,9 @@ void Simulation::State::make_room()
         regrouping.reserve(tree, moving);
     if (collisions)
         collisions->reserve(store.clusters, struck);
-    if (plan.has(Phase::Moments)) {
+    if (field_forces)
+        field_forces->reserve(store.clusters.slot_capacity());
+    if (settings.gravity) {
         reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size(),
                 *settings.gravity);
         reserve(force_lists, store.clusters.slot_capacity());
@@ -218,13 +227,27 @@ void Simulation::State::update()
 void Simulation::State::measure_moments()
 {
     measure_shapes(store, gravity, gravitational_constant, frame);
-    build(view, tree, store.clusters, gravity);
+    if (settings.gravity)
+        build(view, tree, store.clusters, gravity);
 }
 
 void Simulation::State::evaluate_forces()
 {
+    if (!field_forces)
+        return evaluate_gravity();
+    const auto evaluate_fields = [&] { field_forces->evaluate(store.clusters, time()); };
+    if (settings.gravity)
+        run_both([&] { evaluate_gravity(); }, evaluate_fields);
+    else
+        evaluate_fields();
+    field_forces->add_to(store.clusters);
+    snapshot.counts.fields = field_forces->take_counts();
+}
+
+void Simulation::State::evaluate_gravity()
+{
     const ForceCounts counts =
-        evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists, store.clusters);
+        slod::evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists, store.clusters);
     snapshot.counts.interactions = counts.interactions;
     snapshot.unanswered_force = counts.unanswered;
     snapshot.counts.walks = counts.groups;
@@ -242,7 +265,7 @@ Problems Simulation::State::problems() const
                         std::to_string(particle_count));
     const auto add = [&](const Problems& more) { found.insert(found.end(), more.begin(), more.end()); };
     add(sums_problems(store, frame));
-    if (plan.has(Phase::Moments))
+    if (settings.gravity)
         add(slod::problems(view, store.clusters));
     return found;
 }

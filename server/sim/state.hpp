@@ -6,6 +6,7 @@
 #include "cluster/forming.hpp"
 #include "effects/collisions.hpp"
 #include "effects/emission.hpp"
+#include "effects/field_forces.hpp"
 #include "gravity/force_view.hpp"
 #include "gravity/forces.hpp"
 #include "sim/simulation.hpp"
@@ -24,7 +25,8 @@ struct Simulation::State {
     /// Commands: recycles member slabs, lets changes of regions and of gravity count, makes room, and counts
     /// the frame that begins.
     void open_frame();
-    void make_room(); ///< Provides memory for the frame, so that no other phase but emit has to take any
+    void make_room();   ///< Provides memory for the frame, so that no other phase but emit has to take any
+    void look_around(); ///< Moments and forces of the clusters as they are, outside their phases
     void kick();
     void close_kick();
     void propagate();
@@ -32,6 +34,7 @@ struct Simulation::State {
     void update();
     void measure_moments();
     void evaluate_forces();
+    void evaluate_gravity();
     void observe(const Request& request);
     void count_regions();
     void copy_clusters();
@@ -54,6 +57,7 @@ struct Simulation::State {
             snapshot.profile[phase] += double(tick() - start) * 1e-6;
     }
 
+    double time() const { return double(frame) * settings.time.step; } ///< at the end of the frame
     UpdateContext context() { return {store, frame, settings.time.step}; }
     Problems problems() const;
 
@@ -76,6 +80,7 @@ struct Simulation::State {
     Emission emission;
     ForceView view;
     ForceLists force_lists;
+    std::optional<FieldForces> field_forces; ///< where accelerations depend on the place
 
     bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
     std::uint64_t particle_count = 0;

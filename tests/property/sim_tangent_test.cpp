@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.hpp"
+#include "support/pair_error.hpp"
 #include "support/small_scenes.hpp"
 
 // A cluster's flow map is the tangent of the code's own step. Two particles at +-delta about a cluster's
@@ -124,34 +125,6 @@ ParticleSet particles_of(const TangentPlan& plan, double delta)
     return particles;
 }
 
-/// What the map gets wrong about a pair, over its two members: positions and velocities together, with the
-/// unit of time as weight.
-struct PairError {
-    double even = 0, odd = 0;
-    double spread = 0;  ///< of the two members about their mean, likewise
-    double radius = 0;  ///< of the two members about their mean, in position
-    double nearest = 0; ///< distance from a member to a heavy body
-};
-
-double norm(const Vector3d& position, const Vector3d& velocity)
-{
-    return std::sqrt(position.squaredNorm() + velocity.squaredNorm());
-}
-
-PairError compare(const ParticleSet& mapped, const ParticleSet& free)
-{
-    const Vector3d x0 = mapped[0].position - free[0].position, x1 = mapped[1].position - free[1].position;
-    const Vector3d v0 = mapped[0].velocity - free[0].velocity, v1 = mapped[1].velocity - free[1].velocity;
-    const Vector3d offset = 0.5 * (free[0].position - free[1].position);
-    const Vector3d relative_velocity = 0.5 * (free[0].velocity - free[1].velocity);
-    PairError error{norm(0.5 * (x0 + x1), 0.5 * (v0 + v1)), norm(0.5 * (x0 - x1), 0.5 * (v0 - v1)),
-                    norm(offset, relative_velocity), offset.norm(), INFINITY};
-    for (std::size_t member = 0; member < 2; ++member)
-        for (std::size_t body = 2; body < free.size(); ++body)
-            error.nearest = std::min(error.nearest, (free[member].position - free[body].position).norm());
-    return error;
-}
-
 /// The errors after each of run_frames. Fails the test when the pair's cluster was formed anew meanwhile.
 std::vector<PairError> errors_of(const TangentPlan& plan, double delta)
 {
@@ -165,7 +138,7 @@ std::vector<PairError> errors_of(const TangentPlan& plan, double delta)
         mapped.step({});
         free.step({});
         if (frame == run_frames[errors.size()])
-            errors.push_back(compare(mapped.particles(), free.particles()));
+            errors.push_back(compare_pairs(mapped.particles(), free.particles()));
     }
     EXPECT_EQ(mapped.snapshot({.clusters = true}).clusters.formation, formations);
     return errors;

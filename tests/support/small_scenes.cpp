@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "support/field_tables.hpp"
 #include "support/random_draws.hpp"
 #include "support/solids.hpp"
 
@@ -117,6 +118,28 @@ SmallScene attracted_obstacles()
     return scene;
 }
 
+/// A fountain that every effect of place acts on, above and in a cloud.
+SmallScene fields()
+{
+    SmallScene scene = fountain("fields", Motion::Flow);
+    scene.settings.motion.longest_life = 16;
+    scene.settings.background.max_breadth = 1;
+    for_each_field_table(scene.settings.fields, []<class F>(typename F::Table& table) {
+        add_element(table, typename F::Settings{});
+    });
+    add_cloud(scene.initial, {.count = 500}, 4);
+    return scene;
+}
+
+/// Clouds that attract each other between an attractor and a vortex.
+SmallScene attracted_fields()
+{
+    SmallScene scene = clouds("attracted_fields", Motion::Flow, 16, 500);
+    std::get<Attractor::Table>(scene.settings.fields.forces) = {{.position = {0, 2, 0}, .radius = 3}};
+    std::get<Vortex::Table>(scene.settings.fields.forces) = {{.strength = -0.5}};
+    return scene;
+}
+
 } // namespace
 
 void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
@@ -187,6 +210,8 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(obstacles("obstacles", Motion::Flow));
     scenes.push_back(obstacles("rigid_obstacles", Motion::Rigid));
     scenes.push_back(attracted_obstacles());
+    scenes.push_back(fields());
+    scenes.push_back(attracted_fields());
     return scenes;
 }
 

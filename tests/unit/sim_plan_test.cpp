@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.hpp"
+#include "support/default_fields.hpp"
 #include "support/small_scenes.hpp"
 #include "support/solids.hpp"
 
@@ -24,8 +25,17 @@ const Names attracted{"commands", "open_kick", "propagate",  "update",
                       "moments",  "forces",    "close_kick", "snapshot"};
 const Names all_phases{"commands", "open_kick", "propagate",  "emit",    "update",
                        "moments",  "forces",    "close_kick", "snapshot"};
-const Names all_effects{"gravity",  "uniform_gravity", "linear_drag", "uniform_wind",
-                        "collider", "emitter",         "lifetime"};
+Names every_effect()
+{
+    Names names{"gravity", "uniform_gravity", "linear_drag", "uniform_wind"};
+    for_each_field_table(FieldSettings{},
+                         [&]<class F>(const typename F::Table&) { names.emplace_back(F::name); });
+    for (const char* name : {"collider", "emitter", "lifetime"})
+        names.emplace_back(name);
+    return names;
+}
+
+const Names all_effects = every_effect();
 
 /// A scene by what it has besides four particles of one kind and mass in clusters of flow motion, and what
 /// its plan has to be. Columns are those besides the ones that every scene has.
@@ -65,6 +75,18 @@ void emit_immortals(SmallScene& scene)
 {
     emit(scene);
     scene.settings.emitters.front().lifetime = INFINITY;
+}
+
+void add_all_fields(SmallScene& scene)
+{
+    for_each_field_table(FieldSettings{},
+                         [&]<class F>(const typename F::Table&) { add_default<F>(scene.settings.fields); });
+}
+
+template <class F>
+void add_field(SmallScene& scene)
+{
+    add_default<F>(scene.settings.fields);
 }
 
 void obstruct(SmallScene& scene)
@@ -177,7 +199,7 @@ std::vector<PlannedScene> scenes_of_particles()
          .cluster_columns = {"moments by number"}},
         {.name = "massless", .choose = take_masses, .cluster_columns = {"moments by number"}},
         {.name = "everything",
-         .choose = all<attract, blow, obstruct, emit, add_kind, take_masses>,
+         .choose = all<attract, blow, add_all_fields, obstruct, emit, add_kind, take_masses>,
          .phases = all_phases,
          .effects = all_effects,
          .map = MapKind::Full,
@@ -186,7 +208,38 @@ std::vector<PlannedScene> scenes_of_particles()
          .merging = true,
          .member_columns = {"mass", "kind", "expiry frame"},
          .cluster_columns = {"flow map and closure", "moments by number", "next expiry",
-                             "acceleration and variance", "tidal tensor"}},
+                             "acceleration and variance", "tidal tensor", "curl of the acceleration",
+                             "fields"}},
+    };
+}
+
+/// By effects that depend on the place.
+std::vector<PlannedScene> scenes_of_fields()
+{
+    return {
+        {.name = "attractor",
+         .choose = add_field<Attractor>,
+         .phases = attracted,
+         .effects = {"attractor"},
+         .map = MapKind::Full,
+         .exact = false,
+         .clocked = true,
+         .cluster_columns = {"flow map and closure", "acceleration and variance", "tidal tensor", "fields"}},
+        {.name = "vortex",
+         .choose = add_field<Vortex>,
+         .phases = attracted,
+         .effects = {"vortex"},
+         .map = MapKind::Full,
+         .exact = false,
+         .clocked = true,
+         .cluster_columns = {"flow map and closure", "acceleration and variance", "tidal tensor",
+                             "curl of the acceleration", "fields"}},
+        {.name = "unclustered_spring",
+         .choose = all<add_field<Spring>, uncluster>,
+         .phases = {"commands", "open_kick", "propagate", "update", "forces", "close_kick", "snapshot"},
+         .effects = {"spring"},
+         .map = MapKind::Identity,
+         .cluster_columns = {"acceleration and variance", "fields"}},
     };
 }
 
@@ -296,6 +349,7 @@ std::string name_of(const testing::TestParamInfo<PlannedScene>& info)
 }
 
 INSTANTIATE_TEST_SUITE_P(Motion, PlanOf, testing::ValuesIn(scenes_of_motion()), name_of);
+INSTANTIATE_TEST_SUITE_P(Fields, PlanOf, testing::ValuesIn(scenes_of_fields()), name_of);
 INSTANTIATE_TEST_SUITE_P(Particles, PlanOf, testing::ValuesIn(scenes_of_particles()), name_of);
 
 // 24 bytes of offsets and 8 of id are all that a particle of the plainest scene takes.

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+
+#include "cluster/forming.hpp"
+#include "core/aligned.hpp"
+#include "effects/fields/field_set.hpp"
+
+namespace slod {
+
+/// Accelerations that depend on the place, and their gradients, at the clusters' centres. They are evaluated
+/// into arrays of their own, so that gravity may be evaluated at the same time.
+class FieldForces {
+public:
+    /// `gravity`: the clusters attract each other too.
+    FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity);
+
+    /// Takes other settings from the next evaluation on.
+    void set(const FieldSettings& settings, const FieldSource& source);
+
+    /// Provides memory for so many clusters.
+    void reserve(std::size_t slots);
+
+    /// Evaluates all fields for all clusters at `time`.
+    void evaluate(const ClusterTable& clusters, double time);
+
+    /// Adds what was evaluated to the table's accelerations and gradients; where nothing else accelerates
+    /// clusters, it is all there is, and also what bodies are told by.
+    void add_to(ClusterTable& clusters) const;
+
+    /// Energy of all particles in the fields that have a potential, to second order about their clusters'
+    /// centres, as members move by the flow's first.
+    double potential_energy(const ClusterStore& store, std::uint64_t frame) const;
+
+    using Counts = FieldSet<ForceFields>::Counts;
+    Counts take_counts() { return fields_->take_counts(); }
+
+private:
+    std::unique_ptr<FieldSet<ForceFields>> fields_;
+    bool gravity_;
+    AlignedVector<FieldValue> values_; ///< by slot
+};
+
+} // namespace slod

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "effects/fields/list.hpp"
+
+namespace slod {
+
+/// What the kernel of one effect of place did in a frame.
+struct FieldCount {
+    std::uint64_t calls = 0;    ///< for a block of clusters
+    std::uint64_t clusters = 0; ///< that it was evaluated for, once for each element of its table
+
+    friend bool operator==(const FieldCount&, const FieldCount&) = default;
+};
+
+/// A setting's numbers in order, to sort the elements of a table by: so that the order in the file, which
+/// means nothing, changes no rounding.
+template <class Settings>
+std::vector<double> sort_key(Settings settings) // for_each_field takes what it may change
+{
+    std::vector<double> key;
+    for_each_field(settings, [&]<class T>(const Field&, const T& value) {
+        if constexpr (std::is_same_v<T, Vector3d>)
+            key.insert(key.end(), value.data(), value.data() + 3);
+        else
+            key.push_back(double(value));
+    });
+    return key;
+}
+
+/// By effect of place, in the order of their list.
+using FieldCounts = std::array<FieldCount, ForceFields::size>;
+
+template <class List>
+class FieldSet;
+
+/// The active elements of the effects of one list. Elements of no strength are left out.
+template <PlaceField... F>
+class FieldSet<FieldList<F...>> {
+public:
+    using List = FieldList<F...>;
+    using Counts = std::array<FieldCount, List::size>;
+
+    FieldSet(const FieldSettings& settings, const FieldSource& source) { (take<F>(settings, source), ...); }
+
+    bool empty() const { return (all<F>().empty() && ...); }
+
+    /// Whether the gradient is a symmetric matrix everywhere.
+    bool symmetric() const { return ((F::symmetric || all<F>().empty()) && ...); }
+
+    FieldValue at(const Vector3d& x, double time) const
+    {
+        FieldValue sum;
+        const auto add = [&](const auto& elements) {
+            for (const auto& element : elements)
+                if (element.bounds.contains(x))
+                    element.field.add(x, time, sum);
+        };
+        (add(all<F>()), ...);
+        return sum;
+    }
+
+    /// Potential energy of a body at `x`, of second moments `extent` about it [mass length^2], in the effects
+    /// that have a potential: to second order in its size.
+    double energy(const Vector3d& x, double mass, const Matrix3d& extent) const
+    {
+        double sum = 0;
+        const auto add = [&]<class E>(const std::vector<Element<E>>& elements) {
+            if constexpr (HasPotential<E>)
+                for (const Element<E>& element : elements) {
+                    FieldValue field;
+                    element.field.add(x, 0, field);
+                    sum += mass * element.field.potential(x) - 0.5 * extent.cwiseProduct(field.gradient).sum();
+                }
+        };
+        (add(all<F>()), ...);
+        return sum;
+    }
+
+    /// Adds the fields at `place(i)` to `sums[i]` for i in [first, last) of `wanted(i)`: effect by effect in
+    /// the order of the list, each only where its bounds are. Any thread may call it.
+    template <class Wanted, class Place>
+    void add(std::size_t first, std::size_t last, const Wanted& wanted, const Place& place, double time,
+             FieldValue* sums)
+    {
+        std::size_t row = 0;
+        (add_all(all<F>(), tallies_[row++], first, last, wanted, place, time, sums), ...);
+    }
+
+    /// What add() did since the last call of this.
+    Counts take_counts()
+    {
+        Counts counts;
+        for (std::size_t row = 0; row < List::size; ++row)
+            counts[row] = {tallies_[row].calls.exchange(0), tallies_[row].clusters.exchange(0)};
+        return counts;
+    }
+
+private:
+    template <class E>
+    struct Element {
+        E field;
+        Box bounds;
+    };
+
+    /// Sums of whole numbers, which come out the same in any order.
+    struct Tally {
+        std::atomic<std::uint64_t> calls{0}, clusters{0};
+    };
+
+    template <class E>
+    const std::vector<Element<E>>& all() const
+    {
+        return std::get<std::vector<Element<E>>>(elements_);
+    }
+
+    template <class E>
+    void take(const FieldSettings& settings, const FieldSource& source)
+    {
+        const auto table = elements(settings.of<E>());
+        std::vector<typename E::Settings> sorted(table.begin(), table.end());
+        std::sort(sorted.begin(), sorted.end(),
+                  [](const auto& a, const auto& b) { return sort_key(a) < sort_key(b); });
+        for (const auto& each : sorted)
+            if (const E field(each, source); field.acts())
+                std::get<std::vector<Element<E>>>(elements_).push_back({field, field.bounds()});
+    }
+
+    template <class E, class Wanted, class Place>
+    static void add_all(const std::vector<Element<E>>& elements, Tally& tally, std::size_t first,
+                        std::size_t last, const Wanted& wanted, const Place& place, double time,
+                        FieldValue* sums)
+    {
+        for (const Element<E>& element : elements) {
+            std::uint64_t evaluated = 0;
+            for (std::size_t i = first; i < last; ++i) {
+                if (!wanted(i) || !element.bounds.contains(place(i)))
+                    continue;
+                element.field.add(place(i), time, sums[i]);
+                ++evaluated;
+            }
+            tally.calls += evaluated > 0 ? 1 : 0;
+            tally.clusters += evaluated;
+        }
+    }
+
+    std::tuple<std::vector<Element<F>>...> elements_;
+    std::array<Tally, List::size> tallies_;
+};
+
+} // namespace slod

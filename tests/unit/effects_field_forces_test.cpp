@@ -1,0 +1,113 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "effects/fields/attractor.hpp"
+#include "effects/fields/field_set.hpp"
+#include "effects/fields/spring.hpp"
+
+// Accelerations of place against their closed forms.
+namespace slod::test {
+namespace {
+
+template <class F>
+FieldValue at(const typename F::Settings& settings, const Vector3d& x)
+{
+    FieldValue sum;
+    F(settings, FieldSource{}).add(x, 0, sum);
+    return sum;
+}
+
+constexpr double tolerance = 16 * 0x1p-52; ///< some ten roundings
+
+TEST(Attractor, PullsByTheInverseSquareOfASoftenedDistance)
+{
+    const Vector3d d(3, 0, 0);
+    const FieldValue far = at<Attractor>({.position = {1, 2, 3}, .strength = 5, .softening = 4}, d + Vector3d(1, 2, 3));
+    EXPECT_LE((far.value - Vector3d(-5 * 3 / 125.0, 0, 0)).norm(), tolerance);
+}
+
+// F09
+TEST(Attractor, DoesNotPullWhatIsAtItsPlace)
+{
+    const FieldValue here = at<Attractor>({.position = {1, 2, 3}, .softening = 0.1}, {1, 2, 3});
+    EXPECT_EQ(here.value, Vector3d(0, 0, 0));
+    EXPECT_NEAR(here.gradient.trace(), -3 / 1e-3, 3e3 * tolerance);
+}
+
+TEST(Attractor, OfNegativeStrengthRepels)
+{
+    const FieldValue pulled = at<Attractor>({.strength = 2}, {0.3, 1, -2});
+    const FieldValue pushed = at<Attractor>({.strength = -2}, {0.3, 1, -2});
+    EXPECT_EQ(pushed.value, Vector3d(-pulled.value));
+    EXPECT_EQ(pushed.gradient, Matrix3d(-pulled.gradient));
+}
+
+TEST(Attractor, FadesTowardsItsRadiusAndIsNothingBeyond)
+{
+    const AttractorSettings bounded{.strength = 1, .softening = 0.1, .radius = 2};
+    const AttractorSettings unbounded{.strength = 1, .softening = 0.1};
+    double share = 1;
+    for (double r = 0.01; r < 2; r += 0.01) {
+        const Vector3d x(r, 0, 0);
+        const double depth = Attractor(bounded, {}).potential(x) / Attractor(unbounded, {}).potential(x);
+        EXPECT_LT(depth, share);
+        share = depth;
+    }
+    EXPECT_EQ(at<Attractor>(bounded, {2, 0, 0}).value, Vector3d(0, 0, 0));
+    EXPECT_EQ(at<Attractor>(bounded, {1.5, 1.5, 0}).value, Vector3d(0, 0, 0));
+}
+
+// F27
+TEST(Spring, OfNoLengthPullsNothing)
+{
+    EXPECT_EQ(at<Spring>({.anchor = {1, 2, 3}, .stiffness = 1e6}, {1, 2, 3}).value, Vector3d(0, 0, 0));
+}
+
+// F26: kicks at the ends of a frame are stable up to angular frequency 2 / step; beyond, the scene is refused.
+TEST(Spring, TooStiffForTheStepIsRefused)
+{
+    const double step = 0.25;
+    EXPECT_TRUE(Spring::problems({.stiffness = 63.9}, step).empty());
+    EXPECT_FALSE(Spring::problems({.stiffness = 64}, step).empty());
+}
+
+TEST(FieldSet, SumsItsElementsWhateverTheirOrder)
+{
+    FieldSettings one, other;
+    auto& table = std::get<Attractor::Table>(one.forces);
+    for (int i = 0; i < 5; ++i)
+        table.push_back({.position = {0.1 * i, 0.37 * i * i, 1}, .strength = 1.0 / (i + 1)});
+    std::get<Attractor::Table>(other.forces).assign(table.rbegin(), table.rend());
+    const FieldSet<ForceFields> a(one, {}), b(other, {});
+    for (int i = 0; i < 20; ++i) {
+        const Vector3d x(0.3 * i, -0.2, 0.7 / (i + 1));
+        EXPECT_EQ(a.at(x, 0).value, b.at(x, 0).value); // E-11: to the bit
+        EXPECT_EQ(a.at(x, 0).gradient, b.at(x, 0).gradient);
+    }
+}
+
+// E-8
+TEST(FieldSet, AsksNoEffectOutsideItsBounds)
+{
+    FieldSettings settings;
+    std::get<Attractor::Table>(settings.forces) = {{.radius = 0.1}, {.position = {5, 0, 0}, .radius = 0.2}};
+    FieldSet<ForceFields> fields(settings, {});
+    std::vector<Vector3d> places;
+    for (int i = 0; i < 100; ++i)
+        places.push_back({0.1 * i, 0, 0});
+    std::vector<FieldValue> sums(places.size());
+    fields.add(
+        0, places.size(), [](std::size_t) { return true; },
+        [&](std::size_t i) -> const Vector3d& { return places[i]; }, 0, sums.data());
+    const FieldCounts counts = fields.take_counts();
+    EXPECT_EQ(counts[0].calls, 2U);
+    EXPECT_LE(counts[0].clusters, 6U) << "one within 0.1 of the origin, four of 5, and one that rounding may add";
+    EXPECT_GE(counts[0].clusters, 4U);
+    for (std::size_t row = 1; row < counts.size(); ++row)
+        EXPECT_EQ(counts[row], FieldCount{}) << "an absent effect is never asked";
+    EXPECT_EQ(fields.take_counts(), FieldCounts{});
+}
+
+} // namespace
+} // namespace slod::test
