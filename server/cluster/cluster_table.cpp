@@ -45,6 +45,8 @@ void for_each_column(ClusterTable& table, const Visitor& visit)
         visit(table.tide);
     if (table.columns.turning)
         visit(table.turning);
+    if (table.columns.strain)
+        visit(table.strain);
 }
 
 } // namespace

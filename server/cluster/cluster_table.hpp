@@ -28,8 +28,9 @@ struct ClusterTable {
         bool expiry = false;
         bool withheld = false; ///< where clusters may move by their first particle's velocity
         bool turning = false;  ///< where accelerations have a curl
+        bool strain = false;   ///< where winds deform clusters, or drag does
 
-        bool variance() const { return acceleration || tide; }
+        bool variance() const { return acceleration || tide || strain; }
     };
 
     explicit ClusterTable(const Columns& asked) : columns(asked) {}
@@ -64,6 +65,7 @@ struct ClusterTable {
     AlignedVector<Vector3d> acceleration; ///< columns.acceleration
     AlignedVector<Symmetric3> tide;       ///< symmetric part of da/dx without the closure; columns.tide
     AlignedVector<Vector3d> turning;      ///< half the curl of a; columns.turning
+    AlignedVector<double> strain;         ///< square of the rate at which winds deform it; columns.strain
     AlignedVector<double> closure;        ///< self-gravity of the members, T_self = -closure 1; columns.map
     AlignedVector<double> variance;       ///< trace of the position covariance; columns.variance()
 
@@ -91,6 +93,13 @@ struct ClusterTable {
             gradient += turn;
         }
         return gradient;
+    }
+
+    /// Square of the rate at which fields deform the cluster, 1 / time^2: |da/dx|, and what winds add.
+    double rate_squared(std::size_t slot) const
+    {
+        const double tidal = columns.tide ? gradient(slot).norm() : 0.0;
+        return columns.strain ? tidal + strain[slot] : tidal;
     }
 
     /// The moments that weigh every member alike: what decides how wide a cluster looks.

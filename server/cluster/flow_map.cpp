@@ -39,6 +39,16 @@ void propagate(FlowMap& map, const Propagator& step)
     map.d_minus_1 += loss * (map.d_minus_1 + Matrix3f::Identity());
 }
 
+void propagate(FlowMap& map, const Tangent& step)
+{
+    const Matrix3f c = map.c, b = map.b;
+    const Matrix3f a = map.a_minus_1, d = map.d_minus_1;
+    map.a_minus_1 += step.xx + step.xx * a + step.xv * c;
+    map.b += step.xv + step.xx * b + step.xv * d;
+    map.c += step.vx + step.vx * a + step.vv * c;
+    map.d_minus_1 += step.vv + step.vx * b + step.vv * d;
+}
+
 MapBlocks::Offset MapBlocks::inverse(const Offset& now) const
 {
     if (!conformal) {

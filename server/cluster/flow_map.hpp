@@ -56,6 +56,13 @@ struct Propagator {
 /// Tangent of the propagator.
 void propagate(FlowMap& map, const Propagator& step);
 
+/// The tangent of any step, less the identity: x += xx x + xv v, v += vx x + vv v.
+struct Tangent {
+    Matrix3f xx, xv, vx, vv;
+};
+
+void propagate(FlowMap& map, const Tangent& step);
+
 /// The four blocks of any kind of map, in double, and what its inverse needs.
 struct MapBlocks {
     Matrix3d a = Matrix3d::Identity();

@@ -150,6 +150,8 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
         clusters.tide[slot] = {};
     if (clusters.columns.turning)
         clusters.turning[slot].setZero();
+    if (clusters.columns.strain)
+        clusters.strain[slot] = 0;
 }
 
 /// Bounds the spectral norm from above, and is equal to it for a multiple of the identity.

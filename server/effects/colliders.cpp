@@ -60,10 +60,11 @@ void Colliders::set_fields(const UniformFields& fields)
     frame_ = Elapsed(fields.drag, step_);
 }
 
-bool Colliders::may_touch(const Vector3d& position, const Vector3d& velocity, double reach, double time) const
+bool Colliders::may_touch(const Vector3d& position, const Vector3d& velocity, double reach, double time,
+                          const UniformFields& fields) const
 {
-    const Path path{position, velocity, fields_.acceleration(), fields_.drag};
-    const Elapsed whole = elapsed(time);
+    const Path path{position, velocity, fields.acceleration(), fields.drag};
+    const Elapsed whole = elapsed(time, fields.drag);
     const Box way = path.bounds(whole);
     return std::any_of(all_.begin(), all_.end(), [&](const Collider& collider) {
         return meet(way, collider.bounds, reach + contact_tolerance(position)) &&
@@ -72,9 +73,9 @@ bool Colliders::may_touch(const Vector3d& position, const Vector3d& velocity, do
 }
 
 Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, double time,
-                                    const Vector3d& acceleration) const
+                                    const Vector3d& acceleration, const UniformFields& fields) const
 {
-    const Vector3d pull = fields_.acceleration() + acceleration;
+    const Vector3d pull = fields.acceleration() + acceleration;
     Encounter encounter;
     Contacts contacts;
     std::optional<std::uint32_t> met;
@@ -85,12 +86,11 @@ Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, doub
             encounter.cut_off = true;
             return encounter;
         }
-        const Elapsed left = elapsed(time);
-        const Departure departure =
-            leave({position, velocity, pull, fields_.drag}, left, contacts, encounter);
+        const Elapsed left = elapsed(time, fields.drag);
+        const Departure departure = leave({position, velocity, pull, fields.drag}, left, contacts, encounter);
         const std::optional<Impact> impact = next_impact(departure.path, left, contacts);
         encounter.touched = encounter.touched || impact || !contacts.all().empty();
-        const Elapsed flown = impact ? elapsed(impact->time) : left;
+        const Elapsed flown = impact ? elapsed(impact->time, fields.drag) : left;
         position = departure.path.position_after(flown);
         velocity = departure.path.velocity_after(flown);
         if (!impact) {

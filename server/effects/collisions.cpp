@@ -46,6 +46,16 @@ void Collisions::fly_members(const UpdateContext& context)
     });
 }
 
+/// What the cluster in `slot` feels through the frame.
+Air::Felt Collisions::felt_by(const UpdateContext& context, std::size_t slot) const
+{
+    if (air_ == nullptr)
+        return {.fields = colliders_.fields()};
+    const ClusterTable& clusters = context.store.clusters;
+    return air_->felt(clusters.position[slot], clusters.velocity[slot],
+                      double(context.frame - 1) * context.step, context.step);
+}
+
 /// By a ball about the centre that no member leaves during the frame, unless it bounces: the map's bound, and
 /// drift times the relative velocities. Under kicks the members' ways are bent, and the centre's is not.
 bool Collisions::may_be_struck(const UpdateContext& context, std::size_t slot) const
@@ -56,12 +66,15 @@ bool Collisions::may_be_struck(const UpdateContext& context, std::size_t slot) c
     double relative = velocity_bound(clusters, rule, slot, start);
     if (clusters.columns.withheld)
         relative += clusters.withheld[slot].norm();
-    double reach =
-        bounding_radius(clusters, rule, slot, start) + drag_drift(rule.drag, context.step) * relative;
+    const double radius = bounding_radius(clusters, rule, slot, start);
+    const Air::Felt felt = felt_by(context, slot);
+    double reach = radius + (air_ == nullptr ? drag_drift(rule.drag, context.step) * relative
+                                             : air_->spread(felt, radius, relative));
     if (clusters.columns.acceleration)
         reach += 0.125 * context.step * context.step * clusters.acceleration[slot].norm();
     reach *= 1 + 1e-5; // the bounds are floats
-    return colliders_.may_touch(clusters.position[slot], clusters.velocity[slot], reach, context.step);
+    return colliders_.may_touch(clusters.position[slot], clusters.velocity[slot], reach, context.step,
+                                felt.fields);
 }
 
 void Collisions::fly(const UpdateContext& context, Struck& struck)
@@ -75,11 +88,14 @@ void Collisions::fly(const UpdateContext& context, Struck& struck)
     const Vector3d acceleration =
         clusters.columns.acceleration ? clusters.acceleration[struck.slot.index] : Vector3d(0, 0, 0);
     const Vector3d half_kick = (0.5 * context.step) * acceleration;
+    const Air::Felt felt = felt_by(context, struck.slot.index);
     for (std::uint32_t i = 0; i < struck.count; ++i) {
         Particle& member = members[i];
         const Vector3d position = member.position, velocity = member.velocity;
+        const UniformFields fields =
+            air_ == nullptr ? felt.fields : air_->felt_by_member(felt, position, velocity);
         member.velocity -= half_kick;
-        const auto met = colliders_.fly(member.position, member.velocity, context.step, acceleration);
+        const auto met = colliders_.fly(member.position, member.velocity, context.step, acceleration, fields);
         member.velocity -= half_kick;
         touching_[struck.first + i] = met.touched ? 1 : 0;
         struck.touched = struck.touched || met.touched;

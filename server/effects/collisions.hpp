@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "effects/air.hpp"
 #include "effects/colliders.hpp"
 #include "tree/grouping.hpp"
 #include "tree/slod_tree.hpp"
@@ -31,9 +32,10 @@ public:
         bool full_map = false;
     };
 
+    /// `air`, the caller's, where it differs from place to place; null otherwise.
     Collisions(const std::vector<ColliderSettings>& settings, const UniformFields& fields, double step,
-               const Rules& rules)
-        : colliders_(settings, fields, step), rules_(rules)
+               const Rules& rules, const Air* air = nullptr)
+        : colliders_(settings, fields, step), rules_(rules), air_(air)
     {}
 
     const Colliders& colliders() const { return colliders_; }
@@ -69,6 +71,7 @@ private:
     };
 
     bool may_be_struck(const UpdateContext& context, std::size_t slot) const;
+    Air::Felt felt_by(const UpdateContext& context, std::size_t slot) const;
     void fly(const UpdateContext& context, Struck& struck);
     bool keep(ClusterTable& clusters, const Struck& struck) const;
     void gather(const ClusterTable& clusters, const Struck& struck, std::uint64_t frame);
@@ -76,6 +79,7 @@ private:
 
     Colliders colliders_;
     Rules rules_;
+    const Air* air_;
     std::vector<std::uint8_t> marks_;    ///< by slot: struck
     std::vector<Struck> struck_;         ///< in order of slots
     std::vector<Particle> members_;      ///< of the struck, mapped out

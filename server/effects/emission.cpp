@@ -34,8 +34,8 @@ bool by_first_particle(const SlodTree& tree, const ClusterTable& clusters, std::
 } // namespace
 
 Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life,
-                   const Colliders* colliders)
-    : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), colliders_(colliders),
+                   const Colliders* colliders, const Air* air)
+    : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), colliders_(colliders), air_(air),
       cohorts_(emitters_.size())
 {}
 
@@ -47,7 +47,7 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
     for (std::size_t emitter = 0; emitter < emitters_.size(); ++emitter) {
         newborns_.clear();
         births.refused += emitters_[emitter].emit(context.frame, context.step, fields_, room - births.born,
-                                                  newborns_, colliders_);
+                                                  newborns_, colliders_, air_);
         births.born += newborns_.size();
         const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
         if (joined < newborns_.size())

@@ -16,10 +16,10 @@ namespace slod {
 /// velocity (O'Brien et al. 2001, section 5.1).
 class Emission {
 public:
-    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped. `colliders`
-    /// (null: there are none) are the caller's and outlive this.
+    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped. `colliders` and
+    /// `air` (null: there are none) are the caller's and outlive this.
     Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life,
-             const Colliders* colliders = nullptr);
+             const Colliders* colliders = nullptr, const Air* air = nullptr);
 
     /// Newborns fly through other fields from here on.
     void set_fields(const UniformFields& fields) { fields_ = fields; }
@@ -55,6 +55,7 @@ private:
     UniformFields fields_;
     double mid_life_;
     const Colliders* colliders_;
+    const Air* air_;
     std::vector<ClusterId> cohorts_; ///< by emitter
     std::vector<Newborn> newborns_;
     std::vector<NewCluster> new_clusters_;

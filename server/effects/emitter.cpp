@@ -30,7 +30,7 @@ std::uint64_t Emitter::count_before(double time) const
 }
 
 std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
-                            std::vector<Newborn>& newborns, const Colliders* colliders) const
+                            std::vector<Newborn>& newborns, const Colliders* colliders, const Air* air) const
 {
     const double end = double(frame) * step;
     const std::uint64_t first = count_before(double(frame - 1) * step);
@@ -42,10 +42,14 @@ std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformField
         for (std::size_t i = begin; i < last; ++i) {
             Newborn& born = newborns[before + i];
             born = newborn(first + i, end, step);
+            Vector3d& position = born.particle.position;
+            Vector3d& velocity = born.particle.velocity;
+            const UniformFields felt =
+                air == nullptr ? fields : air->felt(position, velocity, end - born.age, born.age).fields;
             if (colliders != nullptr)
-                colliders->fly(born.particle.position, born.particle.velocity, born.age);
+                colliders->fly(position, velocity, born.age, {0, 0, 0}, felt);
             else
-                fields.over(born.age).apply(born.particle.position, born.particle.velocity);
+                felt.over(born.age).apply(position, velocity);
         }
     });
     std::erase_if(newborns, [&](const Newborn& born) { return born.particle.expiry_frame <= frame; });

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cluster/particles.hpp"
+#include "effects/air.hpp"
 #include "effects/colliders.hpp"
 #include "effects/settings.hpp"
 #include "effects/uniform_fields.hpp"
@@ -27,10 +28,12 @@ public:
     std::uint64_t count_before(double time) const;
 
     /// Appends the particles that start in frame `frame` (of length `step`, ending at frame * step), moved
-    /// to the frame's end in `fields`, among `colliders` if there are any. Those whose lifetime ends within
-    /// the frame are left out, and so are all after the first `room`; returns how many these are.
+    /// to the frame's end in `fields`, or in what of the `air` they feel, among `colliders` if there are any.
+    /// Those whose lifetime ends within the frame are left out, and so are all after the first `room`;
+    /// returns how many these are.
     std::uint64_t emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
-                       std::vector<Newborn>& newborns, const Colliders* colliders = nullptr) const;
+                       std::vector<Newborn>& newborns, const Colliders* colliders = nullptr,
+                       const Air* air = nullptr) const;
 
     const EmitterSettings& settings() const { return settings_; }
 

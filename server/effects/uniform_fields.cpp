@@ -28,17 +28,21 @@ UniformFields::UniformFields(const std::optional<UniformGravitySettings>& unifor
         gravity = uniform_gravity->acceleration;
     if (linear_drag)
         drag = linear_drag->rate;
-    if (uniform_wind && linear_drag)
+    if (uniform_wind)
         wind = uniform_wind->velocity;
 }
 
-Propagator UniformFields::over(double time) const
+Damping::Damping(double drag, double duration)
+    : time(duration), decay_minus_1(drag == 0 ? 0.0 : portable_expm1(-drag * duration)),
+      drift(drag_drift(drag, duration)), fall(drag_fall(drag, duration))
+{}
+
+Propagator UniformFields::over(const Damping& time) const
 {
     Propagator step;
-    step.drift = drag_drift(drag, time);
-    step.decay_minus_1 = drag == 0 ? 0.0 : portable_expm1(-drag * time);
-    const double carried = drag_fall(drag, time);
-    step.shift = drag * carried * wind + carried * gravity;
+    step.drift = time.drift;
+    step.decay_minus_1 = time.decay_minus_1;
+    step.shift = drag * time.fall * wind + time.fall * gravity;
     step.gain = -step.decay_minus_1 * wind + step.drift * gravity;
     return step;
 }

@@ -44,7 +44,9 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"gravity", "The particles' attraction for each other."}, simulation.gravity);
     visit(Section{"uniform_gravity", "The same acceleration for everything."}, simulation.uniform_gravity);
     visit(Section{"linear_drag", "Air resistance proportional to the velocity."}, simulation.linear_drag);
-    visit(Section{"uniform_wind", "Moving air; needs linear_drag."}, simulation.uniform_wind);
+    visit(Section{"quadratic_drag", "Air resistance proportional to the square of the velocity."},
+          simulation.quadratic_drag);
+    visit(Section{"uniform_wind", "Moving air; needs a drag."}, simulation.uniform_wind);
     for_each_field_table(simulation.fields, [&]<class F>(typename F::Table& table) {
         visit(Section{F::name, F::help}, table);
     });

@@ -145,6 +145,7 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("gravity", wanted.gravity.has_value() == present.gravity.has_value());
     fixed("uniform_gravity", wanted.uniform_gravity.has_value() == present.uniform_gravity.has_value());
     fixed("uniform_wind", wanted.uniform_wind.has_value() == present.uniform_wind.has_value());
+    fixed("quadratic_drag", wanted.quadratic_drag == present.quadratic_drag);
     for_each_field_table(wanted.fields, [&]<class F>(const typename F::Table& table) {
         fixed(F::name, table == present.fields.of<F>());
     });
@@ -194,6 +195,8 @@ void Simulation::State::set_fields()
     gravitational_constant =
         settings.units.gravitational_constant() * (settings.gravity ? settings.gravity->strength : 1.0);
     fields = UniformFields(settings.uniform_gravity, settings.linear_drag, settings.uniform_wind);
+    if (air)
+        air->set_uniform(fields);
     propagator = fields.over(settings.time.step);
     emission.set_fields(fields);
     if (collisions)

@@ -32,11 +32,15 @@ void decide_fields(Plan& plan, const SimulationSettings& settings)
     const FieldSet<ForceFields> forces(settings.fields, {settings.seed});
     plan.field_forces = !forces.empty();
     plan.turning = !forces.symmetric();
+    const bool quadratic = settings.quadratic_drag && settings.quadratic_drag->coefficient > 0;
+    const FieldSet<AirFields> winds(settings.fields, {settings.seed});
+    plan.air = quadratic || !winds.empty();
+    plan.local_air = quadratic || !winds.uniform();
 }
 
 void decide_map(Plan& plan, const SimulationSettings& settings)
 {
-    const bool position_dependent = settings.gravity.has_value() || plan.field_forces;
+    const bool position_dependent = settings.gravity.has_value() || plan.field_forces || plan.local_air;
     const Motion motion = settings.motion.motion;
     const auto single = [](const RegionSettings& partition) { return partition.max_cluster_size < 2; };
     const auto of_singles = [&](const RegionOfInterest& region) { return single(region.partition); };
@@ -70,7 +74,7 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::OpenKick, kicked);
     runs(Phase::Propagate, true);
     runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives);
-    runs(Phase::Update, kicked || !plan.unclustered || !settings.regions.empty());
+    runs(Phase::Update, kicked || plan.local_air || !plan.unclustered || !settings.regions.empty());
     runs(Phase::Moments, settings.gravity.has_value() || plan.clocked);
     runs(Phase::Forces, kicked);
     runs(Phase::CloseKick, kicked);
@@ -102,9 +106,12 @@ void list_columns(Plan& plan)
     cluster(plan.finite_lives, "next expiry", 4);
     cluster(plan.withholding, "velocity withheld", sizeof(Vector3d));
     cluster(plan.has(Phase::Forces), "acceleration and variance", sizeof(Vector3d) + 2 * sizeof(double));
-    cluster(plan.clocked, "tidal tensor", sizeof(Symmetric3));
+    cluster(plan.clocked && !plan.has(Phase::Forces), "variance", sizeof(double));
+    cluster(plan.clocked && plan.has(Phase::Forces), "tidal tensor", sizeof(Symmetric3));
     cluster(plan.turning, "curl of the acceleration", sizeof(Vector3d));
     cluster(plan.field_forces, "fields", sizeof(FieldValue));
+    cluster(plan.local_air, "winds", sizeof(FieldValue));
+    cluster(plan.local_air && plan.clocked, "strain", sizeof(double));
 }
 
 void list_effects(Plan& plan, const SimulationSettings& settings)
@@ -113,6 +120,8 @@ void list_effects(Plan& plan, const SimulationSettings& settings)
                     {"uniform_gravity", settings.uniform_gravity.has_value(), "linear"},
                     {"linear_drag", settings.linear_drag.has_value(), "linear"},
                     {"uniform_wind", settings.uniform_wind.has_value(), "linear"}};
+    const bool drags = settings.quadratic_drag && settings.quadratic_drag->coefficient > 0;
+    plan.effects.push_back({"quadratic_drag", drags, "linearised", settings.quadratic_drag && !drags});
     for_each_field_table(settings.fields, [&]<class F>(const typename F::Table& table) {
         const auto all = elements(table);
         const auto acts = [&](const auto& each) { return F(each, {settings.seed}).acts(); };

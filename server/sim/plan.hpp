@@ -39,6 +39,8 @@ struct Plan {
     bool several_masses = false;
     bool field_forces = false;     ///< accelerations depend on the place, besides gravity's
     bool turning = false;          ///< such an acceleration has a curl
+    bool air = false;              ///< the air moves, or resists, by more than uniform fields say
+    bool local_air = false;        ///< and differs from cluster to cluster
     bool withholding = false;      ///< clusters may move by their first particle's velocity
     bool counting_moments = false; ///< masses differ or are all 0: clusters are also weighed by number
     float uniform_mass = 0;        ///< of every particle, unless several_masses

@@ -103,6 +103,20 @@ void check_fields(const FieldSettings& fields, double step, Problems& found)
     });
 }
 
+void check_winds(const SimulationSettings& settings, Problems& found)
+{
+    if (settings.linear_drag || settings.quadratic_drag)
+        return;
+    const auto check = [&](std::string_view name, bool blows) {
+        if (blows)
+            found.push_back(std::string(name) +
+                            " acts through the air's drag alone and the scene has none; add [linear_drag] or "
+                            "[quadratic_drag], or leave it out.");
+    };
+    check("uniform_wind", settings.uniform_wind.has_value());
+    AirFields::for_each([&]<class F> { check(F::name, !elements(settings.fields.of<F>()).empty()); });
+}
+
 void check_lives(const MotionSettings& motion, Problems& found)
 {
     const auto check = [&](const std::string& key, std::uint32_t frames) {
@@ -181,10 +195,7 @@ Problems problems(const SimulationSettings& settings)
     check_regions(settings.regions, settings.sharing, found);
     check_lives(settings.motion, found);
     check_rigid_rules(settings.motion, found);
-    if (settings.uniform_wind && !settings.linear_drag)
-        found.push_back(
-            "uniform_wind acts through the air's drag alone and the scene has none; add [linear_drag] or "
-            "leave [uniform_wind] out.");
+    check_winds(settings, found);
     return found;
 }
 

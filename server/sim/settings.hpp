@@ -11,6 +11,7 @@
 #include "core/settings.hpp"
 #include "effects/collider_settings.hpp"
 #include "effects/fields/list.hpp"
+#include "effects/quadratic_drag.hpp"
 #include "effects/settings.hpp"
 #include "gravity/settings.hpp"
 #include "tree/region.hpp"
@@ -69,6 +70,7 @@ struct SimulationSettings {
     std::optional<UniformGravitySettings> uniform_gravity;
     std::optional<LinearDragSettings> linear_drag;
     std::optional<UniformWindSettings> uniform_wind;
+    std::optional<QuadraticDragSettings> quadratic_drag;
     FieldSettings fields;
     std::vector<ColliderSettings> colliders;
     std::vector<EmitterSettings> emitters;

@@ -22,17 +22,18 @@ const simd::KernelTable* kernels_named(std::string_view isa)
 ClusterTable::Columns cluster_columns(const Plan& plan)
 {
     return {.map = plan.map == MapKind::Full,
-            .tide = plan.clocked,
+            .tide = plan.clocked && plan.has(Phase::Forces),
             .acceleration = plan.has(Phase::Forces),
             .counting_moments = plan.counting_moments,
             .expiry = plan.finite_lives,
             .withheld = plan.withholding,
-            .turning = plan.turning};
+            .turning = plan.turning,
+            .strain = plan.local_air && plan.clocked};
 }
 
 MapRule map_rule(const Plan& plan, const UniformFields& fields, double step)
 {
-    return {plan.map, fields.drag, step, !plan.turning};
+    return {plan.map, fields.drag, step, !plan.turning && !plan.local_air};
 }
 
 /// Side of the background's grid cells: the maximum breadth, or, when that is unlimited, a power of two
@@ -70,14 +71,22 @@ std::vector<Emitter> emitters_of(const SimulationSettings& settings)
 }
 
 std::optional<Collisions> collisions_of(const SimulationSettings& settings, const Plan& plan,
-                                        const UniformFields& fields)
+                                        const UniformFields& fields, const Air* air)
 {
     if (settings.colliders.empty())
         return {};
     const Collisions::Rules rules{.carries_members = plan.map != MapKind::Identity,
                                   .exact = plan.map_is_exact,
                                   .full_map = plan.map == MapKind::Full};
-    return Collisions(settings.colliders, fields, settings.time.step, rules);
+    return Collisions(settings.colliders, fields, settings.time.step, rules, air);
+}
+
+std::optional<Air> air_of(const SimulationSettings& settings, const Plan& plan, const UniformFields& fields)
+{
+    if (!plan.air)
+        return {};
+    return std::optional<Air>(std::in_place, fields, settings.quadratic_drag, settings.fields,
+                              FieldSource{settings.seed}, settings.time.step);
 }
 
 } // namespace
@@ -90,9 +99,10 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       store(cluster_columns(plan), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, scene.time.step)),
       tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(scene.motion, context()),
-      collisions(collisions_of(scene, plan, fields)),
+      air(air_of(scene, plan, fields)),
+      collisions(collisions_of(scene, plan, fields, plan.local_air ? &*air : nullptr)),
       emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step,
-               collisions ? &collisions->colliders() : nullptr),
+               collisions ? &collisions->colliders() : nullptr, air ? &*air : nullptr),
       particle_count(initial.size())
 {
     if (scene.gravity)
@@ -141,6 +151,8 @@ void Simulation::State::look_around()
         measure_moments();
     if (plan.has(Phase::Forces))
         evaluate_forces();
+    if (store.clusters.columns.strain)
+        air->measure_strain(store.clusters, time());
 }
 
 void Simulation::State::make_room()
@@ -161,6 +173,8 @@ void Simulation::State::make_room()
         collisions->reserve(store.clusters, struck);
     if (field_forces)
         field_forces->reserve(store.clusters.slot_capacity());
+    if (air)
+        air->reserve(store.clusters.slot_capacity());
     if (settings.gravity) {
         reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size(),
                 *settings.gravity);
@@ -186,15 +200,31 @@ void Simulation::State::close_kick()
 
 void Simulation::State::propagate()
 {
+    if (air && !plan.local_air)
+        turn_wind();
     if (collisions)
         collisions->fly_members(context());
-    propagate_clusters(store.clusters, propagator);
+    if (plan.local_air)
+        air->propagate(store.clusters, double(frame - 1) * settings.time.step);
+    else
+        propagate_clusters(store.clusters, propagator);
+    if (air)
+        note(air->take_counts(), ForceFields::size);
     if (!plan.has(Phase::Update) && !all_finite(store.clusters)) // else update looks at all that moved
         refuse_unbounded(frame);
     if (collisions) {
         snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts);
         particle_count -= snapshot.counts.died;
     }
+}
+
+void Simulation::State::turn_wind()
+{
+    fields = air->at((double(frame) - 0.5) * settings.time.step);
+    propagator = fields.over(settings.time.step);
+    emission.set_fields(fields);
+    if (collisions)
+        collisions->set_fields(fields);
 }
 
 void Simulation::State::emit()
@@ -241,7 +271,7 @@ void Simulation::State::evaluate_forces()
     else
         evaluate_fields();
     field_forces->add_to(store.clusters);
-    snapshot.counts.fields = field_forces->take_counts();
+    note(field_forces->take_counts(), 0);
 }
 
 void Simulation::State::evaluate_gravity()

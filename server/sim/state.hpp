@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 
 #include "cluster/forming.hpp"
+#include "effects/air.hpp"
 #include "effects/collisions.hpp"
 #include "effects/emission.hpp"
 #include "effects/field_forces.hpp"
@@ -30,6 +32,7 @@ struct Simulation::State {
     void kick();
     void close_kick();
     void propagate();
+    void turn_wind(); ///< Takes this frame's wind, where that is the same everywhere
     void emit();
     void update();
     void measure_moments();
@@ -58,6 +61,13 @@ struct Simulation::State {
     }
 
     double time() const { return double(frame) * settings.time.step; } ///< at the end of the frame
+    /// Takes what a list of effects of place did, whose first is the `first` of all.
+    template <class Counts>
+    void note(const Counts& counts, std::size_t first)
+    {
+        std::copy(counts.begin(), counts.end(), snapshot.counts.fields.begin() + std::ptrdiff_t(first));
+    }
+
     UpdateContext context() { return {store, frame, settings.time.step}; }
     Problems problems() const;
 
@@ -76,6 +86,7 @@ struct Simulation::State {
     Reforming reforming;
     Regrouping regrouping;
     Expiry expiry;
+    std::optional<Air> air;               ///< where it is more than uniform fields
     std::optional<Collisions> collisions; ///< where there are colliders
     Emission emission;
     ForceView view;

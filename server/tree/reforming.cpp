@@ -136,7 +136,7 @@ std::uint64_t Reforming::wanted_life(const SlodTree& tree, const PoolRef& ref) c
     const ClusterTable& clusters = context_.store.clusters;
     double tide = 0;
     for (ClusterSlot slot = pool.first; slot.valid(); slot = clusters.next[slot.index])
-        tide += clusters.count[slot.index] * clusters.gradient(slot.index).norm();
+        tide += clusters.count[slot.index] * clusters.rate_squared(slot.index);
     if (first_turn && tide == 0) // of newborns none is known yet; pools that were laid anew hold others
         return motion_.shortest_life;
     tide /= pool.members;

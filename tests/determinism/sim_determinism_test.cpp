@@ -114,6 +114,9 @@ const std::map<std::string, std::uint64_t> pinned{
     {"attracted_obstacles", 0x52a9420e12645135},
     {"fields", 0x819a09974401a9c9},
     {"attracted_fields", 0x6cc5b99834d9e220},
+    {"winds", 0x4a2b01ce7b62173a},
+    {"winds_among_obstacles", 0xadea54f36ecd58fc},
+    {"gusts", 0x8352937b06347fa7},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)

@@ -24,7 +24,7 @@ SimulationSettings settings_with(const typename F::Settings& element)
     settings.background.max_cluster_size = 96; // clusters are formed at seven tenths of it
     settings.background.pool_factor = 4;
     settings.background.max_breadth = 64;
-    add_element(std::get<typename F::Table>(settings.fields.forces), element);
+    add_element(settings.fields.of<F>(), element);
     return settings;
 }
 
@@ -95,8 +95,8 @@ TEST(AttractorMotion, StaysOnACircleForAHundredTurns)
     const double rate_squared = sun.strength / std::pow(r * r + 0.09, 1.5);
     const double theta = std::acos(1 - 0.5 * rate_squared * h * h);
     const auto frames = int(100 * 2 * std::numbers::pi / theta);
-    const Particle end = run_one(
-        settings, one(sun.position + Vector3d(r, 0, 0), {0, r * std::sin(theta) / h, 0}), frames);
+    const Particle end =
+        run_one(settings, one(sun.position + Vector3d(r, 0, 0), {0, r * std::sin(theta) / h, 0}), frames);
     const Vector3d expected =
         sun.position + r * Vector3d(std::cos(frames * theta), std::sin(frames * theta), 0);
     // Roundings of a frame are some ten of 4; they turn an orbit at a rate that differs, so that they grow
@@ -142,7 +142,8 @@ TEST(BuoyancyMotion, BobsWithAnEnergyThatDragOnlyTakes)
     SimulationSettings settings = settings_with<Buoyancy>(water);
     settings.uniform_gravity = UniformGravitySettings{{0, 0, -10}};
     settings.linear_drag = LinearDragSettings{0.5};
-    for (const ParticleSet& initial : {one({0, 0, 1.5}, {0, 0, 0}), sixty_four({0, 0, 1.5}, {0, 0, 0}, 0.02)}) {
+    for (const ParticleSet& initial :
+         {one({0, 0, 1.5}, {0, 0, 0}), sixty_four({0, 0, 1.5}, {0, 0, 0}, 0.02)}) {
         Simulation simulation(settings, initial, {});
         const double h = settings.time.step, mass = double(initial.size());
         const auto energy = [&] {
@@ -207,9 +208,8 @@ TYPED_TEST(MotionIn, KeepsItsEnergyWhereItHasAPotential)
             if (frame == 0)
                 start = energy;
             largest = std::max(largest, std::abs(energy - start));
-            bound = std::max(bound, h * h *
-                                        (speed * speed * here.gradient.norm() / 12 +
-                                         here.value.squaredNorm() / 24));
+            bound = std::max(
+                bound, h * h * (speed * speed * here.gradient.norm() / 12 + here.value.squaredNorm() / 24));
         }
         EXPECT_LE(largest, 2.1 * bound + 2000 * 16 * rounding);
     }

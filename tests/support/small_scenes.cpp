@@ -118,15 +118,14 @@ SmallScene attracted_obstacles()
     return scene;
 }
 
-/// A fountain that every effect of place acts on, above and in a cloud.
+/// A fountain that every acceleration of place acts on, above and in a cloud.
 SmallScene fields()
 {
     SmallScene scene = fountain("fields", Motion::Flow);
     scene.settings.motion.longest_life = 16;
     scene.settings.background.max_breadth = 1;
-    for_each_field_table(scene.settings.fields, []<class F>(typename F::Table& table) {
-        add_element(table, typename F::Settings{});
-    });
+    ForceFields::for_each(
+        [&]<class F> { add_element(scene.settings.fields.of<F>(), typename F::Settings{}); });
     add_cloud(scene.initial, {.count = 500}, 4);
     return scene;
 }
@@ -135,8 +134,38 @@ SmallScene fields()
 SmallScene attracted_fields()
 {
     SmallScene scene = clouds("attracted_fields", Motion::Flow, 16, 500);
-    std::get<Attractor::Table>(scene.settings.fields.forces) = {{.position = {0, 2, 0}, .radius = 3}};
-    std::get<Vortex::Table>(scene.settings.fields.forces) = {{.strength = -0.5}};
+    scene.settings.fields.of<Attractor>() = {{.position = {0, 2, 0}, .radius = 3}};
+    scene.settings.fields.of<Vortex>() = {{.strength = -0.5}};
+    return scene;
+}
+
+/// A fountain in every sort of wind that drags by the square of the speed, and in a spring's pull.
+SmallScene winds(const std::string& name)
+{
+    SmallScene scene = fountain(name, Motion::Flow);
+    scene.settings.motion.longest_life = 16;
+    scene.settings.background.max_breadth = 1;
+    scene.settings.quadratic_drag = QuadraticDragSettings{0.3};
+    AirFields::for_each([&]<class F> { add_element(scene.settings.fields.of<F>(), typename F::Settings{}); });
+    scene.settings.fields.of<Spring>() = {{.stiffness = 2}};
+    return scene;
+}
+
+SmallScene winds_among_obstacles()
+{
+    SmallScene scene = winds("winds_among_obstacles");
+    scene.settings.fields.of<Spring>().clear();
+    add_colliders(scene.settings);
+    add_cloud(scene.initial, {.count = 200, .mass = 1e-3, .scale = 0.02}, 3);
+    return scene;
+}
+
+/// The fountain in gusts that are the same everywhere.
+SmallScene gusts()
+{
+    SmallScene scene = fountain("gusts", Motion::Flow);
+    scene.settings.fields.of<Wind>() = {
+        {.half_extent = Vector3d::Constant(INFINITY), .gust_amplitude = 0.5, .gust_period = 0.4}};
     return scene;
 }
 
@@ -212,6 +241,9 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(attracted_obstacles());
     scenes.push_back(fields());
     scenes.push_back(attracted_fields());
+    scenes.push_back(winds("winds"));
+    scenes.push_back(winds_among_obstacles());
+    scenes.push_back(gusts());
     return scenes;
 }
 

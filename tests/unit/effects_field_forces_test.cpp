@@ -23,7 +23,8 @@ constexpr double tolerance = 16 * 0x1p-52; ///< some ten roundings
 TEST(Attractor, PullsByTheInverseSquareOfASoftenedDistance)
 {
     const Vector3d d(3, 0, 0);
-    const FieldValue far = at<Attractor>({.position = {1, 2, 3}, .strength = 5, .softening = 4}, d + Vector3d(1, 2, 3));
+    const FieldValue far =
+        at<Attractor>({.position = {1, 2, 3}, .strength = 5, .softening = 4}, d + Vector3d(1, 2, 3));
     EXPECT_LE((far.value - Vector3d(-5 * 3 / 125.0, 0, 0)).norm(), tolerance);
 }
 
@@ -64,7 +65,8 @@ TEST(Spring, OfNoLengthPullsNothing)
     EXPECT_EQ(at<Spring>({.anchor = {1, 2, 3}, .stiffness = 1e6}, {1, 2, 3}).value, Vector3d(0, 0, 0));
 }
 
-// F26: kicks at the ends of a frame are stable up to angular frequency 2 / step; beyond, the scene is refused.
+// F26: kicks at the ends of a frame are stable up to angular frequency 2 / step; beyond, the scene is
+// refused.
 TEST(Spring, TooStiffForTheStepIsRefused)
 {
     const double step = 0.25;
@@ -75,10 +77,10 @@ TEST(Spring, TooStiffForTheStepIsRefused)
 TEST(FieldSet, SumsItsElementsWhateverTheirOrder)
 {
     FieldSettings one, other;
-    auto& table = std::get<Attractor::Table>(one.forces);
+    auto& table = one.of<Attractor>();
     for (int i = 0; i < 5; ++i)
         table.push_back({.position = {0.1 * i, 0.37 * i * i, 1}, .strength = 1.0 / (i + 1)});
-    std::get<Attractor::Table>(other.forces).assign(table.rbegin(), table.rend());
+    other.of<Attractor>().assign(table.rbegin(), table.rend());
     const FieldSet<ForceFields> a(one, {}), b(other, {});
     for (int i = 0; i < 20; ++i) {
         const Vector3d x(0.3 * i, -0.2, 0.7 / (i + 1));
@@ -91,7 +93,7 @@ TEST(FieldSet, SumsItsElementsWhateverTheirOrder)
 TEST(FieldSet, AsksNoEffectOutsideItsBounds)
 {
     FieldSettings settings;
-    std::get<Attractor::Table>(settings.forces) = {{.radius = 0.1}, {.position = {5, 0, 0}, .radius = 0.2}};
+    settings.of<Attractor>() = {{.radius = 0.1}, {.position = {5, 0, 0}, .radius = 0.2}};
     FieldSet<ForceFields> fields(settings, {});
     std::vector<Vector3d> places;
     for (int i = 0; i < 100; ++i)
@@ -100,13 +102,14 @@ TEST(FieldSet, AsksNoEffectOutsideItsBounds)
     fields.add(
         0, places.size(), [](std::size_t) { return true; },
         [&](std::size_t i) -> const Vector3d& { return places[i]; }, 0, sums.data());
-    const FieldCounts counts = fields.take_counts();
+    const auto counts = fields.take_counts();
     EXPECT_EQ(counts[0].calls, 2U);
-    EXPECT_LE(counts[0].clusters, 6U) << "one within 0.1 of the origin, four of 5, and one that rounding may add";
+    EXPECT_LE(counts[0].clusters, 6U)
+        << "one within 0.1 of the origin, four of 5, and one that rounding may add";
     EXPECT_GE(counts[0].clusters, 4U);
     for (std::size_t row = 1; row < counts.size(); ++row)
         EXPECT_EQ(counts[row], FieldCount{}) << "an absent effect is never asked";
-    EXPECT_EQ(fields.take_counts(), FieldCounts{});
+    EXPECT_EQ(fields.take_counts(), FieldSet<ForceFields>::Counts{});
 }
 
 } // namespace

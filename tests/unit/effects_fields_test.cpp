@@ -35,7 +35,7 @@ protected:
     }
 };
 
-TYPED_TEST_SUITE(EffectOfPlace, TestTypes<ForceFields>::Types, FieldName);
+TYPED_TEST_SUITE(EffectOfPlace, TestTypes<AllFields>::Types, FieldName);
 
 TYPED_TEST(EffectOfPlace, ActsAsItIsByDefault)
 {
@@ -62,7 +62,8 @@ TYPED_TEST(EffectOfPlace, HasTheGradientOfItsValue)
             };
             const Vector3d fine = difference(h), coarse = difference(2 * h);
             const double tolerance = (fine - coarse).norm() + 16 * 0x1p-52 / h * (1 + here.value.norm());
-            EXPECT_LE((here.gradient.col(axis) - fine).norm(), tolerance) << x.transpose() << " axis " << axis;
+            EXPECT_LE((here.gradient.col(axis) - fine).norm(), tolerance)
+                << x.transpose() << " axis " << axis;
         }
     }
 }

@@ -91,6 +91,8 @@ TEST_P(Boundary, AParticleAloneMovesStraightOn)
     settings.uniform_gravity.reset();
     settings.linear_drag.reset();
     settings.uniform_wind.reset();
+    settings.quadratic_drag.reset();
+    settings.fields = {};
     const ParticleSet initial{{{-0.5, 3, 0.25}, {8, -4, 0}, 7, 1.5F}};
     expect_straight_on(initial, particles_after(settings, initial), frame_count * settings.time.step, 0);
 }

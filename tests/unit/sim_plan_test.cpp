@@ -27,7 +27,7 @@ const Names all_phases{"commands", "open_kick", "propagate",  "emit",    "update
                        "moments",  "forces",    "close_kick", "snapshot"};
 Names every_effect()
 {
-    Names names{"gravity", "uniform_gravity", "linear_drag", "uniform_wind"};
+    Names names{"gravity", "uniform_gravity", "linear_drag", "uniform_wind", "quadratic_drag"};
     for_each_field_table(FieldSettings{},
                          [&]<class F>(const typename F::Table&) { names.emplace_back(F::name); });
     for (const char* name : {"collider", "emitter", "lifetime"})
@@ -87,6 +87,23 @@ template <class F>
 void add_field(SmallScene& scene)
 {
     add_default<F>(scene.settings.fields);
+}
+
+void resist(SmallScene& scene)
+{
+    scene.settings.quadratic_drag.emplace();
+}
+
+void gust(SmallScene& scene)
+{
+    scene.settings.linear_drag.emplace();
+    scene.settings.fields.of<Wind>() = {{.half_extent = Vector3d::Constant(INFINITY), .gust_amplitude = 1}};
+}
+
+void swirl(SmallScene& scene)
+{
+    scene.settings.linear_drag.emplace();
+    add_default<Turbulence>(scene.settings.fields);
 }
 
 void obstruct(SmallScene& scene)
@@ -199,7 +216,7 @@ std::vector<PlannedScene> scenes_of_particles()
          .cluster_columns = {"moments by number"}},
         {.name = "massless", .choose = take_masses, .cluster_columns = {"moments by number"}},
         {.name = "everything",
-         .choose = all<attract, blow, add_all_fields, obstruct, emit, add_kind, take_masses>,
+         .choose = all<attract, blow, resist, add_all_fields, obstruct, emit, add_kind, take_masses>,
          .phases = all_phases,
          .effects = all_effects,
          .map = MapKind::Full,
@@ -209,7 +226,7 @@ std::vector<PlannedScene> scenes_of_particles()
          .member_columns = {"mass", "kind", "expiry frame"},
          .cluster_columns = {"flow map and closure", "moments by number", "next expiry",
                              "acceleration and variance", "tidal tensor", "curl of the acceleration",
-                             "fields"}},
+                             "fields", "winds", "strain"}},
     };
 }
 
@@ -234,6 +251,23 @@ std::vector<PlannedScene> scenes_of_fields()
          .clocked = true,
          .cluster_columns = {"flow map and closure", "acceleration and variance", "tidal tensor",
                              "curl of the acceleration", "fields"}},
+        {.name = "gusts", .choose = gust, .effects = {"linear_drag", "wind"}},
+        {.name = "turbulence",
+         .choose = swirl,
+         .phases = {"commands", "propagate", "update", "moments", "snapshot"},
+         .effects = {"linear_drag", "turbulence"},
+         .map = MapKind::Full,
+         .exact = false,
+         .clocked = true,
+         .cluster_columns = {"flow map and closure", "variance", "winds", "strain"}},
+        {.name = "quadratic_drag",
+         .choose = resist,
+         .phases = {"commands", "propagate", "update", "moments", "snapshot"},
+         .effects = {"quadratic_drag"},
+         .map = MapKind::Full,
+         .exact = false,
+         .clocked = true,
+         .cluster_columns = {"flow map and closure", "variance", "winds", "strain"}},
         {.name = "unclustered_spring",
          .choose = all<add_field<Spring>, uncluster>,
          .phases = {"commands", "open_kick", "propagate", "update", "forces", "close_kick", "snapshot"},

@@ -6,9 +6,9 @@ namespace slod {
 
 /// A point that attracts everything, or repels it.
 struct AttractorSettings {
-    Vector3d position{0, 0, 0}; ///< scene length
-    double strength = 1;        ///< G M: length^3 / time^2; below 0 it repels
-    double softening = 0.5;     ///< scene length
+    Vector3d position{0, 0, 0};                              ///< scene length
+    double strength = 1;                                     ///< G M: length^3 / time^2; below 0 it repels
+    double softening = 0.5;                                  ///< scene length
     double radius = std::numeric_limits<double>::infinity(); ///< of action; scene length
 
     friend bool operator==(const AttractorSettings&, const AttractorSettings&) = default;

@@ -32,10 +32,11 @@ struct FieldSource {
 ///  - acts() is false for an element of no strength, which is dropped;
 ///  - add() adds value and gradient at a place and time, finite everywhere, 0 outside bounds();
 ///  - symmetric: the gradient is a symmetric matrix at every place;
+///  - uniform(), where there is one: whether it is the same at every place;
 ///  - potential(), where there is one: value is the negative gradient of it.
 template <class F>
 concept PlaceField = requires(const F& field, const typename F::Settings& settings, const Vector3d& x,
-                         FieldValue& sum)
+                              FieldValue& sum)
 {
     F(settings, FieldSource{});
     typename F::Table;

@@ -35,7 +35,7 @@ std::vector<double> sort_key(Settings settings) // for_each_field takes what it 
 }
 
 /// By effect of place, in the order of their list.
-using FieldCounts = std::array<FieldCount, ForceFields::size>;
+using FieldCounts = std::array<FieldCount, AllFields::size>;
 
 template <class List>
 class FieldSet;
@@ -53,6 +53,21 @@ public:
 
     /// Whether the gradient is a symmetric matrix everywhere.
     bool symmetric() const { return ((F::symmetric || all<F>().empty()) && ...); }
+
+    /// Whether the fields are the same at every place.
+    bool uniform() const
+    {
+        const auto everywhere = []<class E>(const Element<E>& element) {
+            if constexpr (requires { element.field.uniform(); })
+                return element.field.uniform();
+            else
+                return false;
+        };
+        const auto of = [&](const auto& elements) {
+            return std::all_of(elements.begin(), elements.end(), everywhere);
+        };
+        return (of(all<F>()) && ...);
+    }
 
     FieldValue at(const Vector3d& x, double time) const
     {
@@ -76,7 +91,8 @@ public:
                 for (const Element<E>& element : elements) {
                     FieldValue field;
                     element.field.add(x, 0, field);
-                    sum += mass * element.field.potential(x) - 0.5 * extent.cwiseProduct(field.gradient).sum();
+                    sum +=
+                        mass * element.field.potential(x) - 0.5 * extent.cwiseProduct(field.gradient).sum();
                 }
         };
         (add(all<F>()), ...);
@@ -140,9 +156,12 @@ private:
         for (const Element<E>& element : elements) {
             std::uint64_t evaluated = 0;
             for (std::size_t i = first; i < last; ++i) {
-                if (!wanted(i) || !element.bounds.contains(place(i)))
+                if (!wanted(i))
                     continue;
-                element.field.add(place(i), time, sums[i]);
+                const Vector3d x = place(i);
+                if (!element.bounds.contains(x))
+                    continue;
+                element.field.add(x, time, sums[i]);
                 ++evaluated;
             }
             tally.calls += evaluated > 0 ? 1 : 0;

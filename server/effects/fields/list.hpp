@@ -8,7 +8,9 @@
 #include "effects/fields/attractor.hpp"
 #include "effects/fields/buoyancy.hpp"
 #include "effects/fields/spring.hpp"
+#include "effects/fields/turbulence.hpp"
 #include "effects/fields/vortex.hpp"
+#include "effects/fields/wind.hpp"
 
 namespace slod {
 
@@ -33,14 +35,33 @@ using ForceFields = FieldList< //
     Vortex,                    //
     Buoyancy>;
 
+/// Winds, which act through the drag.
+using AirFields = FieldList< //
+    Wind,                    //
+    Turbulence>;
+
+template <class First, class Second>
+struct Joined;
+template <class... F, class... G>
+struct Joined<FieldList<F...>, FieldList<G...>> {
+    using Type = FieldList<F..., G...>;
+};
+
+using AllFields = Joined<ForceFields, AirFields>::Type;
+
 /// The tables of a scene that set effects of place.
 struct FieldSettings {
-    ForceFields::Tables forces;
+    AllFields::Tables tables;
 
+    template <class F>
+    typename F::Table& of()
+    {
+        return std::get<typename F::Table>(tables);
+    }
     template <class F>
     const typename F::Table& of() const
     {
-        return std::get<typename F::Table>(forces);
+        return std::get<typename F::Table>(tables);
     }
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
@@ -58,15 +79,13 @@ std::string key_of(std::size_t i)
 template <class Visitor>
 void for_each_field_table(FieldSettings& settings, Visitor&& visit)
 {
-    ForceFields::for_each(
-        [&]<class F> { visit.template operator()<F>(std::get<typename F::Table>(settings.forces)); });
+    AllFields::for_each([&]<class F> { visit.template operator()<F>(settings.of<F>()); });
 }
 
 template <class Visitor>
 void for_each_field_table(const FieldSettings& settings, Visitor&& visit)
 {
-    ForceFields::for_each(
-        [&]<class F> { visit.template operator()<F>(std::get<typename F::Table>(settings.forces)); });
+    AllFields::for_each([&]<class F> { visit.template operator()<F>(settings.of<F>()); });
 }
 
 } // namespace slod

@@ -21,8 +21,7 @@ Vortex::Vortex(const Settings& settings, const FieldSource&) : settings_(setting
 void Vortex::add(const Vector3d& x, double, FieldValue& sum) const
 {
     const Vector3d about = turn_ * (x - settings_.position);
-    const double inverse =
-        1 / (about.squaredNorm() + settings_.core_radius * settings_.core_radius);
+    const double inverse = 1 / (about.squaredNorm() + settings_.core_radius * settings_.core_radius);
     const double rate = settings_.strength * inverse;
     // about^2 grows by 2 (turn^T about) d: the distance from the line, outwards.
     const Vector3d growth = 2 * turn_.transpose() * about;

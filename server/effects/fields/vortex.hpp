@@ -8,9 +8,9 @@ namespace slod {
 struct VortexSettings {
     Vector3d position{0, 0, 0}; ///< of any point on the line, scene length
     Vector3d axis{0, 0, 1};     ///< any length but 0; turns by the right hand
-    double strength = 1;        ///< acceleration times distance, far away: length^2 / time^2; below 0 it turns
-                                ///< the other way
-    double core_radius = 0.5;   ///< where the acceleration is largest; scene length
+    double strength = 1;      ///< acceleration times distance, far away: length^2 / time^2; below 0 it turns
+                              ///< the other way
+    double core_radius = 0.5; ///< where the acceleration is largest; scene length
 
     friend bool operator==(const VortexSettings&, const VortexSettings&) = default;
 };

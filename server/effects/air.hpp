@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cluster/forming.hpp"
+#include "core/aligned.hpp"
+#include "effects/fields/field_set.hpp"
+#include "effects/quadratic_drag.hpp"
+#include "effects/uniform_fields.hpp"
+
+namespace slod {
+
+/// Air that moves, or resists, differently from place to place or from time to time. All drags and winds are
+/// one: they give a cluster one rate and one velocity of the air, both at the middle of its frame, under
+/// which it moves exactly; the terminal velocity is exact, the rest right to second order in the step.
+class Air {
+public:
+    /// `fields` are what is the same everywhere; its wind blows besides the others.
+    Air(const UniformFields& fields, const std::optional<QuadraticDragSettings>& quadratic,
+        const FieldSettings& settings, const FieldSource& source, double step);
+
+    /// Takes other uniform fields from here on.
+    void set_uniform(const UniformFields& fields);
+
+    /// Whether it is the same at every place, and resists in proportion to the velocity.
+    bool uniform() const;
+
+    /// Of uniform() air: the fields at a time.
+    UniformFields at(double time) const;
+
+    /// What one particle or cluster feels, as if it were everywhere so.
+    struct Felt {
+        UniformFields fields;
+        Vector3d middle{0, 0, 0}; ///< where the wind was asked for: half a straight flight on
+        FieldValue wind{};        ///< there, the uniform one left out
+        Vector3d drag_slope{0, 0, 0};
+    };
+
+    /// For a flight of `duration` from `start` on.
+    Felt felt(const Vector3d& position, const Vector3d& velocity, double start, double duration) const;
+
+    /// What a member of a cluster feels through a frame: the wind linearised about its cluster.
+    UniformFields felt_by_member(const Felt& cluster, const Vector3d& position,
+                                 const Vector3d& velocity) const;
+
+    /// How far a member may come from its cluster's way in a frame, at most, from `radius` and `speed` of
+    /// all.
+    double spread(const Felt& cluster, double radius, double speed) const;
+
+    /// Provides memory for so many clusters.
+    void reserve(std::size_t slots) { winds_at_.reserve(slots); }
+
+    /// Moves every cluster through a frame from `start` on, and its map by the tangent of that.
+    void propagate(ClusterTable& clusters, double start);
+
+    /// Measures how fast winds deform clusters where they are: columns.strain.
+    void measure_strain(ClusterTable& clusters, double time);
+
+    using Counts = FieldSet<AirFields>::Counts;
+    Counts take_counts() { return winds_->take_counts(); }
+
+private:
+    Felt felt_in(const FieldValue& wind, const Vector3d& velocity, double duration) const;
+    Propagator propagator_of(const Felt& felt) const;
+    Tangent tangent_of(const Felt& felt, const Propagator& flow, const Vector3d& velocity) const;
+    void ask_winds(const ClusterTable& clusters, std::size_t first, std::size_t last, double ahead,
+                   double time);
+    double strain_of(const Felt& felt) const;
+
+    UniformFields uniform_;
+    double quadratic_ = 0; ///< 1 / length
+    std::unique_ptr<FieldSet<AirFields>> winds_;
+    double step_;
+    Damping frame_;                      ///< of the linear drag
+    AlignedVector<FieldValue> winds_at_; ///< by slot
+};
+
+} // namespace slod

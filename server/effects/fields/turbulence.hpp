@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+
+#include "effects/fields/field.hpp"
+
+namespace slod {
+
+/// Air in eddies of many sizes.
+struct TurbulenceSettings {
+    double amplitude = 1;      ///< root mean square speed of the air; scene length / time
+    double length = 4;         ///< wave length of the largest eddies; scene length
+    std::uint32_t octaves = 3; ///< sizes of eddies, each half of the one before
+    double time = 8;           ///< in which the largest eddies change; scene time, inf for frozen ones
+
+    friend bool operator==(const TurbulenceSettings&, const TurbulenceSettings&) = default;
+};
+
+/// Octaves at most.
+inline constexpr std::uint32_t max_octaves = 6;
+
+template <class Visitor>
+void for_each_field(TurbulenceSettings& turbulence, Visitor&& visit)
+{
+    visit(Field{"amplitude", "length/time", "Root mean square speed of the air.", 0, 1e30},
+          turbulence.amplitude);
+    visit(Field{"length", "length", "Wave length of the largest eddies; more than 0.", 0, 1e30},
+          turbulence.length);
+    visit(Field{"octaves", "", "Sizes of eddies, each half of the one before.", 1, max_octaves},
+          turbulence.octaves);
+    visit(Field{"time", "time", "In which the largest eddies change; more than 0.", 0, no_maximum, true},
+          turbulence.time);
+}
+
+/// Curl noise as a sum of random waves, k x a cos 2 pi (k . x + w t + phase): each is the curl of a wave, so
+/// the sum has no divergence, and a gradient in closed form (Kraichnan 1970, Phys. Fluids 13, 22; Fung et al.
+/// 1992, J. Fluid Mech. 236, 281). Speeds of octave n fall as 2^(-n/3) and times as 2^(-2n/3), as those of
+/// eddies do by Kolmogorov's law.
+class Turbulence {
+public:
+    using Settings = TurbulenceSettings;
+    using Table = std::optional<Settings>;
+    static constexpr std::string_view name = "turbulence";
+    static constexpr std::string_view help = "Air in eddies of many sizes; needs a drag.";
+    static constexpr bool symmetric = false;
+
+    static Problems problems(const Settings& settings, double step);
+
+    Turbulence(const Settings& settings, const FieldSource& source);
+
+    bool acts() const { return settings_.amplitude != 0; }
+    Box bounds() const { return unbounded(); }
+    void add(const Vector3d& x, double time, FieldValue& sum) const;
+
+private:
+    static constexpr std::size_t lanes = 2; ///< of the baseline processor's registers
+    static constexpr std::size_t waves_of_octave = 12;
+
+    using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
+
+    /// Waves side by side: k [1 / length], velocity amplitude [length / time], w [1 / time], phase [turns].
+    struct Waves {
+        std::array<Lanes, 3> number{}, velocity{};
+        Lanes rate{}, phase{};
+    };
+
+    Settings settings_;
+    std::vector<Waves> waves_;
+};
+
+} // namespace slod
