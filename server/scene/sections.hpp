@@ -50,6 +50,9 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     for_each_field_table(simulation.fields, [&]<class F>(typename F::Table& table) {
         visit(Section{F::name, F::help}, table);
     });
+    visit(Section{"speed_limit", "The fastest that a particle may be."}, simulation.speed_limit);
+    visit(Section{"brownian", "Random kicks, of each particle by itself: takes as long as without clusters."},
+          simulation.brownian);
     visit(Section{"collider", "Solids that particles bounce off."}, simulation.colliders);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
     visit(Section{"limits", "What the scene may grow to."}, simulation.limits);

@@ -146,6 +146,8 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("uniform_gravity", wanted.uniform_gravity.has_value() == present.uniform_gravity.has_value());
     fixed("uniform_wind", wanted.uniform_wind.has_value() == present.uniform_wind.has_value());
     fixed("quadratic_drag", wanted.quadratic_drag == present.quadratic_drag);
+    fixed("speed_limit", wanted.speed_limit == present.speed_limit);
+    fixed("brownian", wanted.brownian == present.brownian);
     for_each_field_table(wanted.fields, [&]<class F>(const typename F::Table& table) {
         fixed(F::name, table == present.fields.of<F>());
     });

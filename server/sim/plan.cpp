@@ -36,6 +36,7 @@ void decide_fields(Plan& plan, const SimulationSettings& settings)
     const FieldSet<AirFields> winds(settings.fields, {settings.seed});
     plan.air = quadratic || !winds.empty();
     plan.local_air = quadratic || !winds.uniform();
+    plan.member_kicks = settings.speed_limit || (settings.brownian && settings.brownian->strength > 0);
 }
 
 void decide_map(Plan& plan, const SimulationSettings& settings)
@@ -62,8 +63,8 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
         by_first(settings.background) ||
         std::any_of(settings.regions.begin(), settings.regions.end(),
                     [&](const RegionOfInterest& region) { return by_first(region.partition); });
-    plan.merging = !plan.unclustered &&
-                   (motion == Motion::Rigid || !settings.regions.empty() || !settings.colliders.empty());
+    plan.merging = !plan.unclustered && (motion == Motion::Rigid || !settings.regions.empty() ||
+                                         !settings.colliders.empty() || plan.member_kicks);
 }
 
 void decide_phases(Plan& plan, const SimulationSettings& settings)
@@ -128,6 +129,9 @@ void list_effects(Plan& plan, const SimulationSettings& settings)
         const auto active = std::size_t(std::count_if(all.begin(), all.end(), acts));
         plan.effects.push_back({F::name, active > 0, "linearised", all.size() - active});
     });
+    plan.effects.push_back({"speed_limit", settings.speed_limit.has_value(), "per member"});
+    const bool shakes = settings.brownian && settings.brownian->strength > 0;
+    plan.effects.push_back({"brownian", shakes, "per member", settings.brownian && !shakes});
     plan.effects.push_back({"collider", !settings.colliders.empty(), "per member"});
     plan.effects.push_back({"emitter", !settings.emitters.empty(), "births"});
     plan.effects.push_back({"lifetime", plan.finite_lives, "deaths"});

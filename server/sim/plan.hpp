@@ -41,6 +41,7 @@ struct Plan {
     bool turning = false;          ///< such an acceleration has a curl
     bool air = false;              ///< the air moves, or resists, by more than uniform fields say
     bool local_air = false;        ///< and differs from cluster to cluster
+    bool member_kicks = false;     ///< velocities are changed particle by particle
     bool withholding = false;      ///< clusters may move by their first particle's velocity
     bool counting_moments = false; ///< masses differ or are all 0: clusters are also weighed by number
     float uniform_mass = 0;        ///< of every particle, unless several_masses

@@ -11,6 +11,7 @@
 #include "core/settings.hpp"
 #include "effects/collider_settings.hpp"
 #include "effects/fields/list.hpp"
+#include "effects/member_settings.hpp"
 #include "effects/quadratic_drag.hpp"
 #include "effects/settings.hpp"
 #include "gravity/settings.hpp"
@@ -72,6 +73,8 @@ struct SimulationSettings {
     std::optional<UniformWindSettings> uniform_wind;
     std::optional<QuadraticDragSettings> quadratic_drag;
     FieldSettings fields;
+    std::optional<SpeedLimitSettings> speed_limit;
+    std::optional<BrownianSettings> brownian;
     std::vector<ColliderSettings> colliders;
     std::vector<EmitterSettings> emitters;
     LimitSettings limits;

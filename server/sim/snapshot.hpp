@@ -23,6 +23,7 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t born = 0;
     std::uint64_t births_refused = 0; ///< there are as many particles as the scene may have
     std::uint64_t died = 0;
+    std::uint64_t kicked = 0;       ///< particles whose velocity was changed by itself
     std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
     std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
     std::uint64_t nodes_tested = 0; ///< in those walks, whether they may act as one body
@@ -37,7 +38,7 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 23> event_counts{{
+inline constexpr std::array<EventCount, 24> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -45,6 +46,7 @@ inline constexpr std::array<EventCount, 23> event_counts{{
     {"taken_apart", &FrameCounts::taken_apart},
     {"impacts", &FrameCounts::impacts},
     {"impacts_cut_off", &FrameCounts::impacts_cut_off},
+    {"kicked", &FrameCounts::kicked},
     {"due_pools", &FrameCounts::due_pools},
     {"reformed_members", &FrameCounts::reformed_members},
     {"strays_inserted", &FrameCounts::strays_inserted},

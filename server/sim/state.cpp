@@ -108,7 +108,9 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     if (scene.gravity)
         gravitational_constant *= scene.gravity->strength;
     else
-        gravity.closure = false;
+        gravity.closure = false; // members do not attract each other
+    if (plan.member_kicks)
+        member_kicks.emplace(scene.speed_limit, scene.brownian, scene.seed);
     if (plan.field_forces)
         field_forces.emplace(scene.fields, FieldSource{scene.seed}, scene.gravity.has_value());
     set_detail();
@@ -160,7 +162,8 @@ void Simulation::State::make_room()
     // All pools may be due at once; splits and merges come one by one.
     const std::uint64_t moving = plan.clocked ? particle_count : particle_count / 8 + 4096;
     const std::uint64_t struck = collisions ? collisions->expected_members(particle_count) : 0;
-    const std::uint64_t formed = moving + struck;
+    const std::uint64_t kicked = member_kicks ? member_kicks->expected_members(particle_count) : 0;
+    const std::uint64_t formed = moving + struck + kicked;
     store.members.reserve(formed + formed / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
     for (Subtree& subtree : tree.subtrees)
@@ -171,6 +174,8 @@ void Simulation::State::make_room()
         regrouping.reserve(tree, moving);
     if (collisions)
         collisions->reserve(store.clusters, struck);
+    if (member_kicks)
+        member_kicks->reserve(store.clusters, kicked);
     if (field_forces)
         field_forces->reserve(store.clusters.slot_capacity());
     if (air)
@@ -200,6 +205,10 @@ void Simulation::State::close_kick()
 
 void Simulation::State::propagate()
 {
+    if (member_kicks) {
+        member_kicks->update(tree, {store, frame - 1, settings.time.step});
+        snapshot.counts.kicked = member_kicks->changed();
+    }
     if (air && !plan.local_air)
         turn_wind();
     if (collisions)

@@ -9,6 +9,7 @@
 #include "effects/collisions.hpp"
 #include "effects/emission.hpp"
 #include "effects/field_forces.hpp"
+#include "effects/member_kicks.hpp"
 #include "gravity/force_view.hpp"
 #include "gravity/forces.hpp"
 #include "sim/simulation.hpp"
@@ -86,8 +87,9 @@ struct Simulation::State {
     Reforming reforming;
     Regrouping regrouping;
     Expiry expiry;
-    std::optional<Air> air;               ///< where it is more than uniform fields
-    std::optional<Collisions> collisions; ///< where there are colliders
+    std::optional<Air> air;                  ///< where it is more than uniform fields
+    std::optional<Collisions> collisions;    ///< where there are colliders
+    std::optional<MemberKicks> member_kicks; ///< where particles are changed by themselves
     Emission emission;
     ForceView view;
     ForceLists force_lists;

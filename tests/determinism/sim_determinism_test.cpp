@@ -117,6 +117,7 @@ const std::map<std::string, std::uint64_t> pinned{
     {"winds", 0x4a2b01ce7b62173a},
     {"winds_among_obstacles", 0xadea54f36ecd58fc},
     {"gusts", 0x8352937b06347fa7},
+    {"kicked", 0xfc532e74823a0739},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)

@@ -169,6 +169,15 @@ SmallScene gusts()
     return scene;
 }
 
+/// The fountain among obstacles with Brownian kicks and a limit below some droplets' speed.
+SmallScene kicked()
+{
+    SmallScene scene = obstacles("kicked", Motion::Flow);
+    scene.settings.brownian = BrownianSettings{0.5};
+    scene.settings.speed_limit = SpeedLimitSettings{4};
+    return scene;
+}
+
 } // namespace
 
 void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
@@ -244,6 +253,7 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(winds("winds"));
     scenes.push_back(winds_among_obstacles());
     scenes.push_back(gusts());
+    scenes.push_back(kicked());
     return scenes;
 }
 

@@ -93,6 +93,8 @@ TEST_P(Boundary, AParticleAloneMovesStraightOn)
     settings.uniform_wind.reset();
     settings.quadratic_drag.reset();
     settings.fields = {};
+    settings.brownian.reset();
+    settings.speed_limit.reset();
     const ParticleSet initial{{{-0.5, 3, 0.25}, {8, -4, 0}, 7, 1.5F}};
     expect_straight_on(initial, particles_after(settings, initial), frame_count * settings.time.step, 0);
 }

@@ -30,7 +30,7 @@ Names every_effect()
     Names names{"gravity", "uniform_gravity", "linear_drag", "uniform_wind", "quadratic_drag"};
     for_each_field_table(FieldSettings{},
                          [&]<class F>(const typename F::Table&) { names.emplace_back(F::name); });
-    for (const char* name : {"collider", "emitter", "lifetime"})
+    for (const char* name : {"speed_limit", "brownian", "collider", "emitter", "lifetime"})
         names.emplace_back(name);
     return names;
 }
@@ -92,6 +92,12 @@ void add_field(SmallScene& scene)
 void resist(SmallScene& scene)
 {
     scene.settings.quadratic_drag.emplace();
+}
+
+void shake(SmallScene& scene)
+{
+    scene.settings.brownian.emplace();
+    scene.settings.speed_limit.emplace();
 }
 
 void gust(SmallScene& scene)
@@ -216,7 +222,7 @@ std::vector<PlannedScene> scenes_of_particles()
          .cluster_columns = {"moments by number"}},
         {.name = "massless", .choose = take_masses, .cluster_columns = {"moments by number"}},
         {.name = "everything",
-         .choose = all<attract, blow, resist, add_all_fields, obstruct, emit, add_kind, take_masses>,
+         .choose = all<attract, blow, resist, add_all_fields, shake, obstruct, emit, add_kind, take_masses>,
          .phases = all_phases,
          .effects = all_effects,
          .map = MapKind::Full,
@@ -268,6 +274,7 @@ std::vector<PlannedScene> scenes_of_fields()
          .exact = false,
          .clocked = true,
          .cluster_columns = {"flow map and closure", "variance", "winds", "strain"}},
+        {.name = "kicks", .choose = shake, .effects = {"speed_limit", "brownian"}, .merging = true},
         {.name = "unclustered_spring",
          .choose = all<add_field<Spring>, uncluster>,
          .phases = {"commands", "open_kick", "propagate", "update", "forces", "close_kick", "snapshot"},
