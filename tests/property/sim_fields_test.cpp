@@ -212,6 +212,25 @@ TEST(QuadraticDragInAScene, BringsAClusterOf64ToTheTerminalVelocity)
         EXPECT_LE((particle.velocity - terminal).norm(), 1e-9);
 }
 
+// Lives are powers of two from 2 to 16 frames. At k = 0.3 and gradients of some 3 amplitudes, eddies of 0.01
+// deform at 0.1, which asks for 128 frames, and eddies of 30 at 5, for 2 or 4.
+TEST(Eddies, RenewMapsTheMoreOftenTheStrongerTheyAre)
+{
+    const auto reformed = [](double amplitude) {
+        SmallScene scene = scene_in_fields();
+        scene.settings.emitters.clear();
+        scene.settings.fields.of<Turbulence>() = TurbulenceSettings{.amplitude = amplitude};
+        Simulation simulation(scene.settings, scene.initial, {});
+        std::uint64_t members = 0;
+        for (int frame = 0; frame < 64; ++frame)
+            members += simulation.step({}).counts.reformed_members;
+        return double(members);
+    };
+    const double weak = reformed(0.01);
+    EXPECT_NEAR(weak / (600.0 * 64 / 16), 1, 0.3) << "every particle once in the longest life";
+    EXPECT_GT(reformed(30), 3 * weak);
+}
+
 /// A cloud and a jet that fall onto a floor in wind and drag. The wind is in a box, far away on all sides, or
 /// uniform.
 ParticleSet fallen(bool in_box, double max_cluster_size)
