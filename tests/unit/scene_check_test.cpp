@@ -189,6 +189,28 @@ TEST(SimulationSettings, RefuseWindWithoutDrag)
     EXPECT_TRUE(problems(settings).empty());
 }
 
+TEST(SimulationSettings, RefuseEveryWindWithoutDrag)
+{
+    SimulationSettings settings = sound();
+    settings.fields.of<Turbulence>().emplace();
+    EXPECT_TRUE(
+        only_says(problems(settings), {"turbulence acts through the air's drag", "[quadratic_drag]"}));
+    settings.quadratic_drag.emplace();
+    EXPECT_TRUE(problems(settings).empty());
+}
+
+TEST(SimulationSettings, RefuseEffectsOfPlaceByTheirKeys)
+{
+    SimulationSettings settings = sound();
+    settings.fields.of<Spring>() = {{}, {.stiffness = 1e9}};
+    EXPECT_TRUE(only_says(problems(settings), {"spring.1.stiffness = ", "use less than"}));
+    settings.fields.of<Spring>().pop_back();
+    EXPECT_TRUE(problems(settings).empty());
+    settings.linear_drag.emplace();
+    settings.fields.of<Turbulence>() = TurbulenceSettings{.length = 0};
+    EXPECT_TRUE(only_says(problems(settings), {"turbulence.length = 0", "use more than 0"}));
+}
+
 TEST(SceneCheck, IncludesTheSimulations)
 {
     Scene scene = starting_with(InitialModel::Galaxy);

@@ -81,6 +81,10 @@ TEST(SceneOverride, EveryKeyCanBeReached)
     every.simulation.uniform_gravity.emplace();
     every.simulation.linear_drag.emplace();
     every.simulation.uniform_wind.emplace();
+    every.simulation.quadratic_drag.emplace();
+    every.simulation.speed_limit.emplace();
+    every.simulation.brownian.emplace();
+    every.simulation.fields.of<Turbulence>().emplace();
 
     // Each key is set to the value it has anyway: the only thing that could go wrong is not to find it.
     std::vector<std::string> overrides;

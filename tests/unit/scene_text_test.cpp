@@ -129,7 +129,8 @@ Scene random_scene(std::uint64_t seed)
             settings.resize(section.name == "kind" ? 3 : scrambler.below(4));
             for (std::size_t i = 0; i < settings.size(); ++i) {
                 for_each_field(settings[i], scrambler);
-                settings[i].name = std::string(section.name) + "-" + std::to_string(i);
+                if constexpr (requires { settings[i].name; })
+                    settings[i].name = std::string(section.name) + "-" + std::to_string(i);
             }
         } else if constexpr (requires { settings.value(); }) {
             if (scrambler.below(2) == 0)
@@ -166,7 +167,18 @@ Scene random_scene(std::uint64_t seed)
     }
     simulation.motion.shortest_life = 1U << scrambler.below(6);
     simulation.motion.longest_life = simulation.motion.shortest_life << scrambler.below(6);
-    if (simulation.uniform_wind)
+    for_each_field_table(simulation.fields, [&]<class F>(typename F::Table& table) {
+        const auto faulty = [&](const auto& each) {
+            return !F::problems(each, simulation.time.step).empty();
+        };
+        if constexpr (requires { table.begin(); })
+            std::erase_if(table, faulty);
+        else if (table && faulty(*table))
+            table.reset();
+    });
+    bool winds = simulation.uniform_wind.has_value();
+    AirFields::for_each([&]<class F> { winds = winds || !elements(simulation.fields.of<F>()).empty(); });
+    if (winds)
         simulation.linear_drag.emplace();
     if (simulation.motion.motion != Motion::Rigid) {
         simulation.motion.merged_velocities = MergedVelocities::Keep;
@@ -310,14 +322,6 @@ TEST(SceneReference, HasEveryKeyWithUnitDefaultRangeAndHelp)
         lines.push_back(line);
 
     Scene scene;
-    scene.simulation.kinds.resize(1);
-    scene.simulation.colliders.resize(1);
-    scene.simulation.emitters.resize(1);
-    scene.simulation.regions.resize(1);
-    scene.simulation.gravity.emplace();
-    scene.simulation.uniform_gravity.emplace();
-    scene.simulation.linear_drag.emplace();
-    scene.simulation.uniform_wind.emplace();
     const auto look_for = [&](auto& settings) {
         for_each_field(settings, [&]<class T>(const Field& field, const T& value) {
             // The columns are in this order, so one search after the other finds them.
@@ -339,12 +343,12 @@ TEST(SceneReference, HasEveryKeyWithUnitDefaultRangeAndHelp)
     };
     for_each_section(scene, [&]<class Settings>(const Section& section, Settings& settings) {
         EXPECT_NE(reference.find(section.help), std::string::npos) << section.name;
-        if constexpr (requires { settings.at(0); })
-            look_for(settings.front());
-        else if constexpr (requires { settings.value(); })
-            look_for(*settings);
-        else
+        if constexpr (requires { typename Settings::value_type; }) { // an array of tables, or a table if any
+            typename Settings::value_type defaults{};
+            look_for(defaults);
+        } else {
             look_for(settings);
+        }
     });
 }
 
