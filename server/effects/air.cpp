@@ -10,12 +10,11 @@ namespace {
 
 constexpr std::size_t block = 256;
 
-/// d/dk of (h - drift) / k, the fall under drag k; the difference would cancel where k h is small.
-double fall_slope(double drag, const Damping& damping)
+/// d/dk of fall, (h - drift) / k under drag k; the difference would cancel where k h is small.
+double fall_slope(double drag, double time, double drift, double fall)
 {
-    const double h = damping.time;
-    return drag * h < 1e-3 ? -h * h * h / 6 * (1 - drag * h / 2)
-                           : (h * damping.drift - 2 * damping.fall) / drag;
+    return drag * time < 1e-3 ? -time * time * time / 6 * (1 - drag * time / 2)
+                              : (time * drift - 2 * fall) / drag;
 }
 
 } // namespace
@@ -97,13 +96,13 @@ Tangent Air::tangent_of(const Felt& felt, const Propagator& flow, const Vector3d
     Matrix3d xx = carried * by_place, xv = carried * by_velocity;
     Matrix3d vx = taken * by_place, vv = taken * by_velocity;
     if (quadratic_ > 0) {
-        const double k = felt.fields.drag;
-        const Damping damping(k, step_);
+        const double fall = drag_fall(felt.fields.drag, step_);
+        const double drift_slope = fall - step_ * flow.drift;
         const Vector3d relative = velocity - felt.fields.wind;
-        const double drift_slope = damping.fall - step_ * damping.drift;
-        const Vector3d of_place = drift_slope * relative + fall_slope(k, damping) * felt.fields.gravity;
+        const Vector3d of_place = drift_slope * relative +
+                                  fall_slope(felt.fields.drag, step_, flow.drift, fall) * felt.fields.gravity;
         const Vector3d of_velocity =
-            -step_ * (1 + damping.decay_minus_1) * relative + drift_slope * felt.fields.gravity;
+            -step_ * (1 + flow.decay_minus_1) * relative + drift_slope * felt.fields.gravity;
         const auto slope = felt.drag_slope.transpose();
         const Eigen::RowVector3d by_x = -(slope * by_place), by_v = slope - slope * by_velocity;
         xx += of_place * by_x;
