@@ -24,8 +24,8 @@ public:
     /// Evaluates all fields for all clusters at `time`.
     void evaluate(const ClusterTable& clusters, double time);
 
-    /// Adds what was evaluated to the table's accelerations and gradients. Without gravity it is all there is,
-    /// and its size is the clusters' pull.
+    /// Adds what was evaluated to the table's accelerations and gradients. Without gravity it is all there
+    /// is, and its size is the clusters' pull.
     void add_to(ClusterTable& clusters) const;
 
     /// Energy of all particles in the fields that have a potential, to second order about their clusters'
