@@ -28,9 +28,10 @@ ForceCounts BranchWalk<Real>::run(std::uint32_t branch)
 {
     counts_ = {};
     listed_ = 0;
-    gross_pull_ = gross_pull(view_, view_.nodes[branch], region_);
+    const bool relative = terms_.gravity.opening == OpeningCriterion::Relative;
+    gross_pull_ = relative ? gross_pull(view_, view_.nodes[branch], region_) : 0;
     const Sources answered = roots(true), unanswered = roots(false);
-    room_ += listed_;
+    end_ = listed_ + room_;
     descend(branch, {answered, unanswered});
     return counts_;
 }
@@ -71,7 +72,7 @@ typename BranchWalk<Real>::Sources BranchWalk<Real>::settle(const ForceView::Nod
     const Allowance allowance = allowance_for(view_, targets, terms_.gravity, terms_.gravitational_constant,
                                               clusters_.pull, gross_pull_);
     const bool expanding = terms_.gravity.multipoles == Multipoles::Quadrupole && allowance.relative;
-    if (!expanding || above.nodes.empty())
+    if (!expanding || above.nodes.empty() || targets.radius == 0)
         return above;
     const std::size_t first = listed_;
     far_.begin(targets);
@@ -97,6 +98,7 @@ bool BranchWalk<Real>::sift(std::uint32_t source, const ForceView::Node& targets
         ++counts_.nodes_tested;
         if (!holds_targets && is_far(node, targets, allowance)) {
             far_.add(node, view_.second_moments[index]);
+            ++counts_.far_nodes;
             index = node.next;
             continue;
         }
@@ -105,7 +107,7 @@ bool BranchWalk<Real>::sift(std::uint32_t source, const ForceView::Node& targets
             ++index;
             continue;
         }
-        if (listed_ == room_)
+        if (listed_ == end_)
             return false;
         lists_[listed_++] = index;
         index = node.next;
@@ -176,12 +178,14 @@ void BranchWalk<Real>::walk(std::uint32_t source, const ForceView::Node& targets
             index = leaf || own ? node.next : index + 1;
             continue;
         }
-        if (role == NodeRole::Far)
+        if (role == NodeRole::Far) {
             far_.add(node, view_.second_moments[index]);
-        else if (role == NodeRole::Extended)
+            ++counts_.far_nodes;
+        } else if (role == NodeRole::Extended) {
             sum.add_node(node, view_.second_moments[index]);
-        else
+        } else {
             sum.add_point(node.centre, node.mass, node.q);
+        }
         index = node.next;
     }
 }

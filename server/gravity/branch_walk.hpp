@@ -79,7 +79,9 @@ private:
     ForceCounts counts_;
     FarField<Real> far_;
     std::array<std::uint32_t, most_listed> lists_; ///< each behind that of its targets' parent
-    std::size_t listed_ = 0, room_;
+    std::size_t listed_ = 0;
+    const std::size_t room_; ///< beyond the roots
+    std::size_t end_ = 0;    ///< of the room
 };
 
 extern template class BranchWalk<float>;

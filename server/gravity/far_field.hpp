@@ -30,7 +30,7 @@ public:
         : kernels_(kernels), units_(units)
     {}
 
-    /// Begins anew for the bodies of `targets`, which are not all in one place.
+    /// Begins anew for the bodies of `targets`.
     void begin(const ForceView::Node& targets);
 
     /// Adds a node; its centre is farther from the targets' than the radii of both.

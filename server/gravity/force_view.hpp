@@ -27,7 +27,8 @@ struct ForceView {
         /// a sphere of them pulls from afar as a point in its middle does. What that misses is what the
         /// opening criterion bounds.
         double q = 0;
-        float blur = 0; ///< (15/8 var(q))^(1/4), what the bodies' q miss q by, as a length
+        float blur = 0;     ///< (15/8 var(q))^(1/4), what the bodies' q miss q by, as a length
+        float q_spread = 0; ///< no body's q is farther from q
     };
     static_assert(sizeof(Node) == 64);
 

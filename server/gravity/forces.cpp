@@ -100,6 +100,7 @@ ForceCounts evaluate_gravity(const ForceView& view, const simd::KernelTable& ker
         run_all<float>({view, kernels.in_float, gravity, gravitational_constant, units}, lists, clusters);
     for (const ForceCounts& counts : lists.counts) {
         total.interactions += counts.interactions;
+        total.far_nodes += counts.far_nodes;
         total.groups += counts.groups;
         total.nodes_tested += counts.nodes_tested;
         total.unanswered += counts.unanswered;

@@ -12,6 +12,7 @@ namespace slod {
 /// What one evaluation of the forces did.
 struct ForceCounts {
     std::uint64_t interactions = 0; ///< pairs of a body with another one or with a node
+    std::uint64_t far_nodes = 0;    ///< that act on many bodies at once, by an expansion
     std::uint64_t groups = 0;       ///< of bodies that walked the tree together
     std::uint64_t nodes_tested = 0;
     /// Force by bodies on such as do not pull them in turn: momentum that nothing loses, per time.

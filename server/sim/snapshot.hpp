@@ -25,6 +25,7 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t died = 0;
     std::uint64_t kicked = 0;       ///< particles whose velocity was changed by itself
     std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
+    std::uint64_t far_nodes = 0;    ///< that act on many clusters at once, by an expansion
     std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
     std::uint64_t nodes_tested = 0; ///< in those walks, whether they may act as one body
     FieldCounts fields{};           ///< by effect of place, in the order of their list; 0 for absent ones
@@ -38,7 +39,7 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 24> event_counts{{
+inline constexpr std::array<EventCount, 25> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -61,6 +62,7 @@ inline constexpr std::array<EventCount, 24> event_counts{{
     {"nodes_searched", &FrameCounts::nodes_searched},
     {"boundary_tests", &FrameCounts::boundary_tests},
     {"interactions", &FrameCounts::interactions},
+    {"far_nodes", &FrameCounts::far_nodes},
     {"walks", &FrameCounts::walks},
     {"nodes_tested", &FrameCounts::nodes_tested},
 }};

@@ -219,7 +219,8 @@ void Simulation::State::propagate()
         propagate_clusters(store.clusters, propagator);
     if (air)
         note(air->take_counts(), ForceFields::size);
-    if (!plan.has(Phase::Update) && !all_finite(store.clusters)) // else update looks at all that moved
+    // Regrouping looks at all that moved; re-forming only at what is due.
+    if ((plan.clocked || !plan.has(Phase::Update)) && !all_finite(store.clusters))
         refuse_unbounded(frame);
     if (collisions) {
         snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts);
@@ -288,6 +289,7 @@ void Simulation::State::evaluate_gravity()
     const ForceCounts counts =
         slod::evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists, store.clusters);
     snapshot.counts.interactions = counts.interactions;
+    snapshot.counts.far_nodes = counts.far_nodes;
     snapshot.unanswered_force = counts.unanswered;
     snapshot.counts.walks = counts.groups;
     snapshot.counts.nodes_tested = counts.nodes_tested;

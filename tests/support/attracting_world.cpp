@@ -24,7 +24,7 @@ AttractingWorld::AttractingWorld(const ParticleSet& particles, double softening)
 {}
 
 AttractingWorld::AttractingWorld(const std::vector<ParticleSet>& regions, double softening)
-    : world_({MapKind::Identity, 0, 1}, {}, {.max_cluster_size = 1}, spanning_cell_side(regions))
+    : world_({MapKind::Identity, 0, 1}, {.kinds = true}, {.max_cluster_size = 1}, spanning_cell_side(regions))
 {
     world_.store.kind_softening_squared = {softening * softening, 4 * softening * softening,
                                            100 * softening * softening};

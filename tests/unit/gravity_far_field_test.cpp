@@ -42,11 +42,12 @@ std::vector<FarNode> far_nodes(std::size_t count, bool extended)
 }
 
 /// Sums for a tile of targets, their places in a ball about the middle.
-struct Tile {
-    KernelBodies<double, tile> bodies;
-    std::array<std::array<double, tile>, 9> sums{};
+template <class Real>
+struct TileOf {
+    KernelBodies<Real, tile> bodies;
+    std::array<std::array<Real, tile>, 9> sums{};
 
-    Tile(double reach, double q)
+    TileOf(double reach, double q)
     {
         for (std::size_t i = 0; i < tile; ++i) {
             Random random(3, 0, i);
@@ -54,14 +55,17 @@ struct Tile {
         }
     }
 
-    simd::GravityTargets<double> targets()
+    simd::GravityTargets<Real> targets(bool tide = true)
     {
         const auto& b = bodies;
-        return {tile,           b.x.data(),     b.y.data(),     b.z.data(),     b.q.data(),
-                sums[0].data(), sums[1].data(), sums[2].data(), sums[3].data(), sums[4].data(),
-                sums[5].data(), sums[6].data(), sums[7].data(), sums[8].data()};
+        const auto of_tide = [&](std::size_t sum) { return tide ? sums[sum].data() : nullptr; };
+        return {tile,           b.x.data(),     b.y.data(),     b.z.data(), b.q.data(),
+                sums[0].data(), sums[1].data(), sums[2].data(), of_tide(3), of_tide(4),
+                of_tide(5),     of_tide(6),     of_tide(7),     of_tide(8)};
     }
 };
+
+using Tile = TileOf<double>;
 
 /// Largest difference of two tiles' accelerations.
 double difference(const Tile& a, const Tile& b, std::size_t first_target = 0, std::size_t last_sum = 3)
@@ -177,10 +181,21 @@ void expect_same_bits()
     for (const simd::KernelTable* table : simd::runnable_kernels()) {
         const Expansion other = sums(*table);
         EXPECT_EQ(std::memcmp(&other, &baseline, sizeof baseline), 0) << table->name;
-        Tile one(0.5, 0), two(0.5, 0);
-        table->in_double.add_expansion(one.targets(), other);
-        simd::kernels("baseline")->in_double.add_expansion(two.targets(), other);
-        EXPECT_EQ(std::memcmp(&one.sums, &two.sums, sizeof one.sums), 0) << table->name;
+        simd::FarExpansion<Real> terms{};
+        terms.reach = Real(other.reach);
+        std::copy(std::begin(other.pull), std::end(other.pull), terms.pull);
+        std::copy(std::begin(other.tide), std::end(other.tide), terms.tide);
+        std::copy(std::begin(other.third), std::end(other.third), terms.third);
+        std::copy(std::begin(other.fourth), std::end(other.fourth), terms.fourth);
+        TileOf<Real> expected(0.5, 0);
+        simd::gravity_kernels<Real>(*simd::kernels("baseline")).add_expansion(expected.targets(), terms);
+        for (const bool tide : {true, false}) {
+            TileOf<Real> sums_here(0.5, 0);
+            simd::gravity_kernels<Real>(*table).add_expansion(sums_here.targets(tide), terms);
+            EXPECT_EQ(std::memcmp(&sums_here.sums, &expected.sums, (tide ? 9 : 3) * sizeof expected.sums[0]),
+                      0)
+                << table->name << (tide ? "" : ", without the tide");
+        }
     }
 }
 
@@ -188,6 +203,28 @@ TEST(FarField, HasTheSameBitsOnEveryInstructionSet)
 {
     expect_same_bits<float>();
     expect_same_bits<double>();
+}
+
+// A heavy ball and light bodies whose softening is forty times as long, far from it. An expansion about
+// groups of both must not pull them with the heavy ones' softening.
+TEST(BranchWalk, LightAndMasslessBodiesKeepTheirOwnSoftening)
+{
+    for (const float mass : {0.0F, 1e-6F}) {
+        ParticleSet particles = ball(4000, 0.3, 0, 1);
+        for (Particle& particle : particles)
+            particle.mass = 1 / 4000.0F;
+        for (Particle light : ball(12'000, 4, 0, 2)) {
+            light.id += 4000;
+            light.mass = mass;
+            light.kind = std::uint8_t(light.id % 2 == 0 ? 2 : 0); // softened ten times as much as kind 0
+            particles.push_back(light);
+        }
+        AttractingWorld world = walked(particles, 0.1);
+        world.settings.multipoles = Multipoles::Quadrupole;
+        world.rebuild();
+        EXPECT_GT(world.evaluate_again().far_nodes, 0U);
+        EXPECT_LT(force_errors(world).p99, 2e-3) << "twice the tolerance";
+    }
 }
 
 // What is not settled above is settled by the groups: nothing is lost, it takes longer.

@@ -125,10 +125,14 @@ TEST(ForceView, ANodeHasTheMassAndCentreOfItsBodiesAndBoundsThem)
             EXPECT_LE((node.centre - centre).norm(), 1e-12);
             double q = 0, variance = 0;
             for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
-                q += mass > 0 ? view.mass[body] / mass * view.q[body] : 0;
+                q += (mass > 0 ? view.mass[body] / mass : 1.0 / node.count) * view.q[body];
             for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
                 variance += mass > 0 ? view.mass[body] / mass * std::pow(view.q[body] - q, 2) : 0;
             EXPECT_NEAR(node.q, q, 1e-13 * q);
+            double spread = 0;
+            for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
+                spread = std::max(spread, std::abs(view.q[body] - q));
+            EXPECT_GE(double(node.q_spread), spread * (1 - 1e-12)) << "sums of inner nodes are bounds";
             // Float, rounded up by up to 2^-22 at each of the ten levels, in a fourth root.
             EXPECT_NEAR(double(node.blur), std::pow(15.0 / 8 * variance, 0.25), 1e-5 * std::sqrt(q));
             for (std::uint32_t body = node.first; body < node.first + node.count; ++body)
