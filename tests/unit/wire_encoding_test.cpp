@@ -144,8 +144,8 @@ TEST(WireEncoding, StatisticsHaveEveryPhaseAndEveryCount)
     ASSERT_EQ(stats.phases_ms.size(), phase_count);
     EXPECT_EQ(stats.phases_ms[std::size_t(Phase::Forces)], std::pair(std::string("forces"), 4.5));
 
-    // Particles and clusters have fields of their own; every other number of FrameCounts is listed by name, of
-    // an effect of place one of two.
+    // Particles and clusters have fields of their own; every other number of FrameCounts is listed by name,
+    // of an effect of place one of two.
     constexpr std::size_t all_counts = sizeof(FrameCounts) / sizeof(std::uint64_t);
     EXPECT_EQ(stats.counts.size(), all_counts - 2 - std::tuple_size_v<FieldCounts>);
     std::uint64_t interactions = 0;
