@@ -40,6 +40,7 @@ void MemberKicks::reserve(const ClusterTable& clusters, std::size_t member_count
     marks_.reserve(slots);
     reached_.reserve(slots);
     ending_.reserve(slots);
+    accelerations_.reserve(slots);
     grouping_.reserve(member_count, slots, slots);
 }
 
@@ -63,9 +64,12 @@ void MemberKicks::update(SlodTree& tree, const UpdateContext& context)
     grouping_.order.resize(grouping_.particles.size());
     std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
     form_groups(grouping_, context);
-    for (const ClusterSlot slot : grouping_.slots) {
+    for (std::size_t group = 0; group < grouping_.groups.size(); ++group) {
+        const ClusterSlot slot = grouping_.slots[grouping_.groups[group].first_slot];
         if (!clusters.position[slot.index].allFinite())
             refuse_unbounded(context.frame);
+        if (clusters.columns.acceleration)
+            clusters.acceleration[slot.index] = accelerations_[group];
         const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
     }
@@ -112,11 +116,13 @@ bool MemberKicks::kick(Particle& particle, std::uint64_t frame, double step) con
     return particle.velocity != before;
 }
 
-/// Single particles are given their new velocity; members of other clusters that changed are grouped.
+/// Single particles are given their new velocity; members of other clusters that changed are grouped, one
+/// group for each.
 void MemberKicks::gather(ClusterTable& clusters)
 {
     grouping_.clear();
     ending_.clear();
+    accelerations_.clear();
     changed_ = 0;
     for (const Reached& reached : reached_) {
         const std::size_t slot = reached.slot.index;
@@ -130,6 +136,8 @@ void MemberKicks::gather(ClusterTable& clusters)
             continue;
         }
         ending_.push_back(reached.slot);
+        if (clusters.columns.acceleration)
+            accelerations_.push_back(clusters.acceleration[slot]);
         const auto first = std::uint32_t(grouping_.particles.size());
         const float pull = clusters.columns.acceleration ? float(clusters.pull[slot]) : 0;
         for (std::uint32_t i = reached.first; i < reached.first + reached.count; ++i) {

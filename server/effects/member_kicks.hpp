@@ -53,6 +53,7 @@ private:
     std::vector<Reached> reached_; ///< in order of slots
     std::vector<Particle> members_;
     std::vector<ClusterSlot> ending_;
+    std::vector<Vector3d> accelerations_; ///< by group: its cluster's, which acts until the next evaluation
     Grouping grouping_;
     std::uint64_t changed_ = 0;
 };
