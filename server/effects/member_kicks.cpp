@@ -40,8 +40,34 @@ void MemberKicks::reserve(const ClusterTable& clusters, std::size_t member_count
     marks_.reserve(slots);
     reached_.reserve(slots);
     ending_.reserve(slots);
-    accelerations_.reserve(slots);
+    measured_.reserve(slots);
     grouping_.reserve(member_count, slots, slots);
+}
+
+MemberKicks::Measured MemberKicks::measured(const ClusterTable& clusters, std::size_t slot)
+{
+    Measured measured;
+    if (clusters.columns.acceleration)
+        measured.acceleration = clusters.acceleration[slot];
+    if (clusters.columns.tide)
+        measured.tide = clusters.tide[slot];
+    if (clusters.columns.turning)
+        measured.turning = clusters.turning[slot];
+    if (clusters.columns.variance())
+        measured.variance = clusters.variance[slot];
+    return measured;
+}
+
+void MemberKicks::write(ClusterTable& clusters, std::size_t slot, const Measured& measured)
+{
+    if (clusters.columns.acceleration)
+        clusters.acceleration[slot] = measured.acceleration;
+    if (clusters.columns.tide)
+        clusters.tide[slot] = measured.tide;
+    if (clusters.columns.turning)
+        clusters.turning[slot] = measured.turning;
+    if (clusters.columns.variance())
+        clusters.variance[slot] = measured.variance;
 }
 
 void MemberKicks::update(SlodTree& tree, const UpdateContext& context)
@@ -68,8 +94,7 @@ void MemberKicks::update(SlodTree& tree, const UpdateContext& context)
         const ClusterSlot slot = grouping_.slots[grouping_.groups[group].first_slot];
         if (!clusters.position[slot.index].allFinite())
             refuse_unbounded(context.frame);
-        if (clusters.columns.acceleration)
-            clusters.acceleration[slot.index] = accelerations_[group];
+        write(clusters, slot.index, measured_[group]);
         const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
     }
@@ -122,7 +147,7 @@ void MemberKicks::gather(ClusterTable& clusters)
 {
     grouping_.clear();
     ending_.clear();
-    accelerations_.clear();
+    measured_.clear();
     changed_ = 0;
     for (const Reached& reached : reached_) {
         const std::size_t slot = reached.slot.index;
@@ -136,8 +161,7 @@ void MemberKicks::gather(ClusterTable& clusters)
             continue;
         }
         ending_.push_back(reached.slot);
-        if (clusters.columns.acceleration)
-            accelerations_.push_back(clusters.acceleration[slot]);
+        measured_.push_back(measured(clusters, slot));
         const auto first = std::uint32_t(grouping_.particles.size());
         const float pull = clusters.columns.acceleration ? float(clusters.pull[slot]) : 0;
         for (std::uint32_t i = reached.first; i < reached.first + reached.count; ++i) {

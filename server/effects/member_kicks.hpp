@@ -42,6 +42,16 @@ private:
         std::uint32_t changed = 0;
     };
 
+    /// What was last measured of a cluster. It holds for one formed anew where it was, of the same members.
+    struct Measured {
+        Vector3d acceleration{0, 0, 0};
+        Symmetric3 tide{};
+        Vector3d turning{0, 0, 0};
+        double variance = 0;
+    };
+
+    static Measured measured(const ClusterTable& clusters, std::size_t slot);
+    static void write(ClusterTable& clusters, std::size_t slot, const Measured& measured);
     void find(const UpdateContext& context);
     bool kick(Particle& particle, std::uint64_t frame, double step) const;
     void gather(ClusterTable& clusters);
@@ -53,7 +63,7 @@ private:
     std::vector<Reached> reached_; ///< in order of slots
     std::vector<Particle> members_;
     std::vector<ClusterSlot> ending_;
-    std::vector<Vector3d> accelerations_; ///< by group: its cluster's, which acts until the next evaluation
+    std::vector<Measured> measured_; ///< by group
     Grouping grouping_;
     std::uint64_t changed_ = 0;
 };

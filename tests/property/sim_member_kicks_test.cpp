@@ -164,6 +164,27 @@ TEST(MemberKicks, LeaveTheAccelerationThatABounceIsUnder)
     }
 }
 
+/// Members formed anew at the ends of lives of 1 to 64 frames, in 64 frames of 1/64. The spring's tide of
+/// 100 sqrt(3) asks for lives of 0.2 / 13.2, less than a frame.
+std::uint64_t reformed(double kicks)
+{
+    SmallScene scene = cloud_at_rest(1000);
+    scene.settings.motion.shortest_life = 1;
+    scene.settings.motion.longest_life = 64;
+    scene.settings.fields.of<Spring>() = {{.stiffness = 100}};
+    scene.settings.brownian = BrownianSettings{kicks};
+    Simulation simulation(scene.settings, scene.initial, {});
+    std::uint64_t members = 0;
+    for (int frame = 0; frame < 64; ++frame)
+        members += simulation.step({}).counts.reformed_members;
+    return members;
+}
+
+TEST(MemberKicks, LeaveThePaceAtWhichMapsAreRenewed)
+{
+    EXPECT_EQ(reformed(1e-9), reformed(0));
+}
+
 TEST(MemberKicks, HaveTheSameBitsAtAnyNumberOfThreads)
 {
     for (const char* name : {"mixture", "rigid_obstacles", "regions"}) {
