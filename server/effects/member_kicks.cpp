@@ -142,7 +142,7 @@ bool MemberKicks::kick(Particle& particle, std::uint64_t frame, double step) con
 }
 
 /// Single particles are given their new velocity; members of other clusters that changed are grouped, one
-/// group for each.
+/// group for each, which keeps the room that its cluster had for strays.
 void MemberKicks::gather(ClusterTable& clusters)
 {
     grouping_.clear();
@@ -172,7 +172,8 @@ void MemberKicks::gather(ClusterTable& clusters)
         grouping_.groups.push_back({.pool = {clusters.region[slot], clusters.pool[slot]},
                                     .first = first,
                                     .count = reached.count,
-                                    .clusters = 1});
+                                    .clusters = 1,
+                                    .spare_rows = clusters.slab[slot].capacity - reached.count});
     }
 }
 

@@ -185,6 +185,24 @@ TEST(MemberKicks, LeaveThePaceAtWhichMapsAreRenewed)
     EXPECT_EQ(reformed(1e-9), reformed(0));
 }
 
+// Pools fall due one by one, so members that leave theirs come to clusters that were kicked in every frame of
+// their lives.
+TEST(MemberKicks, LeaveRoomForStrays)
+{
+    SmallScene scene = cloud_at_rest(2000);
+    scene.settings.background.max_breadth = 1;
+    scene.settings.background.pool_factor = 2;
+    scene.settings.motion.longest_life = 16;
+    scene.settings.fields.of<Spring>() = {{.stiffness = 10}};
+    scene.settings.brownian = BrownianSettings{0.1};
+    Simulation simulation(scene.settings, scene.initial, {});
+    std::uint64_t inserted = 0;
+    for (int frame = 0; frame < 64; ++frame)
+        inserted += simulation.step({}).counts.strays_inserted;
+    EXPECT_TRUE(simulation.plan().clocked);
+    EXPECT_GT(inserted, 0U);
+}
+
 TEST(MemberKicks, HaveTheSameBitsAtAnyNumberOfThreads)
 {
     for (const char* name : {"mixture", "rigid_obstacles", "regions"}) {
