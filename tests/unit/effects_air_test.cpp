@@ -172,6 +172,25 @@ TEST(Wind, IsNoneOutsideItsBoxAndWholeWithinItsEdges)
     EXPECT_NEAR(at({2.75, 1, 1}).value.y(), 1.5, 8 * rounding); // halfway through the edge
 }
 
+TEST(Wind, RefusesAnEdgeThatLeavesNoPlaceOfFullWind)
+{
+    WindSettings settings{.half_extent = {4, INFINITY, 2}, .edge = 2};
+    const auto full = [&] {
+        FieldValue sum;
+        Wind(settings, {}).add(settings.centre, 0, sum);
+        return sum.value == settings.velocity;
+    };
+    EXPECT_EQ(Wind::problems(settings, 1), Problems{});
+    EXPECT_TRUE(full());
+    settings.edge = 2.5;
+    EXPECT_FALSE(full());
+    const Problems found = Wind::problems(settings, 1);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NE(found[0].find("edge = 2.5 is more than the shortest of half_extent, 2"), std::string::npos);
+    settings.half_extent.setConstant(INFINITY);
+    EXPECT_EQ(Wind::problems(settings, 1), Problems{}) << "wind without a box has no edge";
+}
+
 class Eddies : public testing::Test {
 protected:
     static Vector3d some_place(int index)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/number_text.hpp"
 #include "core/portable_math.hpp"
 
 namespace slod {
@@ -13,6 +14,9 @@ Problems Wind::problems(const Settings& settings, double)
         return {"edge = 0 is a jump, which no cluster can follow; use more than 0."};
     if ((settings.half_extent.array() <= 0).any())
         return {"half_extent has a side of 0, which leaves no box; use more than 0 for x, y and z."};
+    if (const double shortest = settings.half_extent.minCoeff(); settings.edge > shortest)
+        return {"edge = " + number_text(settings.edge) + " is more than the shortest of half_extent, " +
+                number_text(shortest) + ", so that the wind blows fully nowhere; use at most that."};
     return {};
 }
 

@@ -9,7 +9,7 @@ struct WindSettings {
     Vector3d velocity{1, 0, 0};    ///< scene length / time
     Vector3d centre{0, 0, 0};      ///< of the box, scene length
     Vector3d half_extent{1, 1, 1}; ///< of the box, inf along an axis for no bounds there; scene length
-    double edge = 0.5;             ///< depth within a face over which the wind sets in; scene length
+    double edge = 0.5;             ///< depth within a face over which the wind sets in, half_extent at most
     double gust_amplitude = 0;     ///< as a share of the velocity
     double gust_period = 1;        ///< time
 
@@ -25,7 +25,10 @@ void for_each_field(WindSettings& wind, Visitor&& visit)
     visit(Field{"half_extent", "length", "Half sides of the box; inf for no bounds along an axis.", 0,
                 no_maximum, true},
           wind.half_extent);
-    visit(Field{"edge", "length", "Depth within each face over which the wind sets in.", 0, 1e30}, wind.edge);
+    visit(Field{"edge", "length",
+                "Depth within each face over which the wind sets in; the least half_extent at most.", 0,
+                1e30},
+          wind.edge);
     visit(
         Field{"gust_amplitude", "", "Gusts add this share of the velocity, and take it, as a sine.", 0, 1e30},
         wind.gust_amplitude);
