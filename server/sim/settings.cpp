@@ -105,13 +105,21 @@ void check_fields(const FieldSettings& fields, double step, Problems& found)
 
 void check_winds(const SimulationSettings& settings, Problems& found)
 {
-    if (settings.linear_drag || settings.quadratic_drag)
+    const auto& linear = settings.linear_drag;
+    const auto& quadratic = settings.quadratic_drag;
+    if ((linear && linear->rate > 0) || (quadratic && quadratic->coefficient > 0))
         return;
+    std::string reason = " and the scene has none; add [linear_drag] or [quadratic_drag]";
+    if (linear && quadratic)
+        reason = ", but linear_drag.rate = 0 and quadratic_drag.coefficient = 0; use more than 0 for one";
+    else if (linear)
+        reason = ", but linear_drag.rate = 0; use more than 0";
+    else if (quadratic)
+        reason = ", but quadratic_drag.coefficient = 0; use more than 0";
     const auto check = [&](std::string_view name, bool blows) {
         if (blows)
-            found.push_back(std::string(name) +
-                            " acts through the air's drag alone and the scene has none; add [linear_drag] or "
-                            "[quadratic_drag], or leave it out.");
+            found.push_back(std::string(name) + " acts through the air's drag alone" + reason +
+                            ", or leave it out.");
     };
     check("uniform_wind", settings.uniform_wind.has_value());
     AirFields::for_each([&]<class F> { check(F::name, !elements(settings.fields.of<F>()).empty()); });

@@ -199,6 +199,20 @@ TEST(SimulationSettings, RefuseEveryWindWithoutDrag)
     EXPECT_TRUE(problems(settings).empty());
 }
 
+TEST(SimulationSettings, RefuseWindThroughADragOfNoStrength)
+{
+    SimulationSettings settings = sound();
+    settings.fields.of<Turbulence>().emplace();
+    settings.linear_drag = LinearDragSettings{0};
+    EXPECT_TRUE(only_says(problems(settings), {"turbulence acts through", "linear_drag.rate = 0; use more"}));
+    settings.quadratic_drag = QuadraticDragSettings{0};
+    EXPECT_TRUE(only_says(problems(settings), {"linear_drag.rate = 0 and quadratic_drag.coefficient = 0"}));
+    settings.linear_drag.reset();
+    EXPECT_TRUE(only_says(problems(settings), {"quadratic_drag.coefficient = 0; use more than 0"}));
+    settings.linear_drag = LinearDragSettings{1e-3};
+    EXPECT_TRUE(problems(settings).empty()) << "one of them is enough";
+}
+
 TEST(SimulationSettings, RefuseEffectsOfPlaceByTheirKeys)
 {
     SimulationSettings settings = sound();
