@@ -100,6 +100,9 @@ void check_fields(const FieldSettings& fields, double step, Problems& found)
         for (std::size_t i = 0; i < all.size(); ++i)
             for (const std::string& problem : F::problems(all[i], step))
                 found.push_back(key_of<F>(i) + "." + problem);
+        if constexpr (requires { F::problems_together(table, step); })
+            for (const std::string& problem : F::problems_together(table, step))
+                found.push_back(problem);
     });
 }
 

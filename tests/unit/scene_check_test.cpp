@@ -225,6 +225,20 @@ TEST(SimulationSettings, RefuseEffectsOfPlaceByTheirKeys)
     EXPECT_TRUE(only_says(problems(settings), {"turbulence.length = 0", "use more than 0"}));
 }
 
+// A frame of 1/4 follows springs of less than 64.
+TEST(SimulationSettings, RefuseSpringsThatAreTooStiffTogether)
+{
+    SimulationSettings settings = sound();
+    settings.time.step = 0.25;
+    settings.fields.of<Spring>() = {{.stiffness = 30}, {.stiffness = 0}, {.stiffness = 33}};
+    EXPECT_TRUE(problems(settings).empty());
+    settings.fields.of<Spring>()[1].stiffness = 1;
+    EXPECT_TRUE(only_says(problems(settings), {"the sum of spring.0.stiffness to spring.2.stiffness, 64,",
+                                               "use less than 64, or a shorter time.step"}));
+    settings.fields.of<Spring>()[1].stiffness = 64;
+    EXPECT_TRUE(only_says(problems(settings), {"spring.1.stiffness = 64 is more than"}));
+}
+
 TEST(SceneCheck, IncludesTheSimulations)
 {
     Scene scene = starting_with(InitialModel::Galaxy);

@@ -176,6 +176,8 @@ Scene random_scene(std::uint64_t seed)
         else if (table && faulty(*table))
             table.reset();
     });
+    if (auto& springs = simulation.fields.of<Spring>(); springs.size() > 1)
+        springs.resize(1); // together they may be too stiff
     bool winds = simulation.uniform_wind.has_value();
     AirFields::for_each([&]<class F> { winds = winds || !elements(simulation.fields.of<F>()).empty(); });
     if (winds)

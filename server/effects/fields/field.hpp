@@ -29,6 +29,8 @@ struct FieldSource {
 ///  - Settings has defaults that act near the origin, in scene units; Table is a std::vector of them for
 ///    a [[table]] each, or a std::optional for one [table];
 ///  - problems() says what no field's range can, the key first, beside a frame of `step`;
+///  - problems_together(), where there is one: what elements that are sound by themselves cannot be at once,
+///    as whole sentences;
 ///  - acts() is false for an element of no strength, which is dropped;
 ///  - add() adds value and gradient at a place and time, finite everywhere, 0 outside bounds();
 ///  - symmetric: the gradient is a symmetric matrix at every place;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/number_text.hpp"
 #include "effects/fields/field.hpp"
 
 namespace slod {
@@ -32,14 +31,10 @@ public:
     static constexpr bool symmetric = true;
 
     /// Kicks at the ends of a frame are stable up to an angular frequency of 2 / step.
-    static Problems problems(const Settings& settings, double step)
-    {
-        if (settings.stiffness * step * step < 4)
-            return {};
-        return {"stiffness = " + number_text(settings.stiffness) + " is more than a frame of " +
-                number_text(step) + " can follow; use less than " + number_text(4 / (step * step)) +
-                ", or a shorter time.step."};
-    }
+    static Problems problems(const Settings& settings, double step);
+
+    /// Springs together are one whose stiffness is the sum of theirs.
+    static Problems problems_together(const Table& springs, double step);
 
     Spring(const Settings& settings, const FieldSource&) : settings_(settings) {}
 
