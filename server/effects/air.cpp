@@ -38,10 +38,11 @@ bool Air::uniform() const
     return quadratic_ == 0 && winds_->uniform();
 }
 
-UniformFields Air::at(double time) const
+UniformFields Air::at(double time, std::size_t clusters)
 {
     UniformFields now = uniform_;
     now.wind += winds_->at(Vector3d(0, 0, 0), time).value;
+    winds_->count_for_all(clusters);
     return now;
 }
 
@@ -159,6 +160,7 @@ void Air::measure_strain(ClusterTable& clusters, double time)
             if (clusters.alive(slot))
                 clusters.strain[slot] = strain_of(felt_in(winds_at_[slot], clusters.velocity[slot], step_));
     });
+    winds_->take_counts();
 }
 
 /// Offsets in wind u of gradient g under drag k grow at the rate r with r^2 + k r = k g: sqrt(k g) where the

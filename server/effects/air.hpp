@@ -26,8 +26,8 @@ public:
     /// Whether it is the same at every place, and resists in proportion to the velocity.
     bool uniform() const;
 
-    /// Of uniform() air: the fields at a time.
-    UniformFields at(double time) const;
+    /// Of uniform() air: the fields at a time, for so many clusters to move in.
+    UniformFields at(double time, std::size_t clusters);
 
     /// What one particle or cluster feels, as if it were everywhere so.
     struct Felt {
@@ -54,10 +54,12 @@ public:
     /// Moves every cluster through a frame from `start` on, and its map by the tangent of that.
     void propagate(ClusterTable& clusters, double start);
 
-    /// Measures how fast winds deform clusters where they are: columns.strain.
+    /// Measures how fast winds deform clusters where they are: columns.strain. It moves nothing, and is not
+    /// counted.
     void measure_strain(ClusterTable& clusters, double time);
 
     using Counts = FieldSet<AirFields>::Counts;
+    /// Of the winds that clusters moved in since the last call of this.
     Counts take_counts() { return winds_->take_counts(); }
 
 private:

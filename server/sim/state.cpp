@@ -230,7 +230,7 @@ void Simulation::State::propagate()
 
 void Simulation::State::turn_wind()
 {
-    fields = air->at((double(frame) - 0.5) * settings.time.step);
+    fields = air->at((double(frame) - 0.5) * settings.time.step, store.clusters.alive_count());
     propagator = fields.over(settings.time.step);
     emission.set_fields(fields);
     if (collisions)

@@ -108,6 +108,28 @@ TYPED_TEST(EffectInAScene, IsTheOnlyOneAsked)
     }
 }
 
+/// What two winds alike did in the first frame of a cloud.
+FieldCount first_count(const WindSettings& wind)
+{
+    SmallScene scene = scene_in_fields();
+    scene.settings.emitters.clear();
+    scene.settings.fields.of<Wind>() = {wind, wind};
+    Simulation simulation(scene.settings, scene.initial, {});
+    const std::uint64_t clusters = simulation.snapshot({}).counts.clusters;
+    EXPECT_GT(clusters, 0U);
+    const FieldCount count = simulation.step({}).counts.fields[row_of<Wind>()];
+    EXPECT_EQ(count.clusters, 2 * clusters);
+    return count;
+}
+
+// The cloud ends at 5 scale lengths. Winds in boxes are asked for each cluster, and for the clocks before the
+// first frame, which does not count; winds that are everywhere alike are asked once.
+TEST(WindsInAScene, AreCountedForEachClusterFromTheFirstFrameOn)
+{
+    EXPECT_GE(first_count({.half_extent = Vector3d::Constant(100)}).calls, 2U);
+    EXPECT_EQ(first_count({.half_extent = Vector3d::Constant(INFINITY), .gust_amplitude = 1}).calls, 2U);
+}
+
 TYPED_TEST(EffectInAScene, KeepsTheStateSound)
 {
     SmallScene scene = scene_in_fields();

@@ -109,7 +109,19 @@ public:
         (add_all(all<F>(), tallies_[row++], first, last, wanted, place, time, sums), ...);
     }
 
-    /// What add() did since the last call of this.
+    /// Counts all fields as evaluated for so many clusters, where one value of uniform() fields serves them.
+    void count_for_all(std::uint64_t clusters)
+    {
+        std::size_t row = 0;
+        const auto count = [&](const auto& elements) {
+            Tally& tally = tallies_[row++];
+            tally.calls += clusters > 0 ? elements.size() : 0;
+            tally.clusters += elements.size() * clusters;
+        };
+        (count(all<F>()), ...);
+    }
+
+    /// What add() and count_for_all() did since the last call of this.
     Counts take_counts()
     {
         Counts counts;
