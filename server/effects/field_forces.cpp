@@ -34,15 +34,8 @@ void add(Symmetric3& sum, const Symmetric3& more)
 } // namespace
 
 FieldForces::FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity)
-    : gravity_(gravity)
-{
-    set(settings, source);
-}
-
-void FieldForces::set(const FieldSettings& settings, const FieldSource& source)
-{
-    fields_ = std::make_unique<FieldSet<ForceFields>>(settings, source);
-}
+    : fields_(settings, source), gravity_(gravity)
+{}
 
 void FieldForces::reserve(std::size_t slots)
 {
@@ -57,7 +50,7 @@ void FieldForces::evaluate(const ClusterTable& clusters, double time)
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         std::fill(values_.begin() + std::ptrdiff_t(first), values_.begin() + std::ptrdiff_t(last),
                   FieldValue{});
-        fields_->add(first, last, alive, place, time, values_.data());
+        fields_.add(first, last, alive, place, time, values_.data());
     });
 }
 
@@ -97,7 +90,7 @@ double FieldForces::potential_energy(const ClusterStore& store, std::uint64_t fr
             const Symmetric3 extent =
                 map_position_moments(clusters.moments[slot], clusters.blocks(slot, store.rule, frame));
             sums[first / part] +=
-                fields_->energy(clusters.position[slot], clusters.mass(slot), extent.matrix());
+                fields_.energy(clusters.position[slot], clusters.mass(slot), extent.matrix());
         }
     });
     double total = 0;

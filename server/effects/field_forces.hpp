@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "cluster/forming.hpp"
 #include "core/aligned.hpp"
 #include "effects/fields/field_set.hpp"
@@ -14,9 +12,6 @@ class FieldForces {
 public:
     /// `gravity`: the clusters attract each other too.
     FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity);
-
-    /// Takes other settings from the next evaluation on.
-    void set(const FieldSettings& settings, const FieldSource& source);
 
     /// Provides memory for so many clusters.
     void reserve(std::size_t slots);
@@ -33,10 +28,10 @@ public:
     double potential_energy(const ClusterStore& store, std::uint64_t frame) const;
 
     using Counts = FieldSet<ForceFields>::Counts;
-    Counts take_counts() { return fields_->take_counts(); }
+    Counts take_counts() { return fields_.take_counts(); }
 
 private:
-    std::unique_ptr<FieldSet<ForceFields>> fields_;
+    FieldSet<ForceFields> fields_;
     bool gravity_;
     AlignedVector<FieldValue> values_; ///< by slot
 };
