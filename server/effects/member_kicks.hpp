@@ -28,7 +28,8 @@ public:
     /// 4,096 more, unless it is all of them.
     std::size_t expected_members(std::size_t particle_count) const;
 
-    /// Acts on the velocities as they are after `context.frame` frames, before anything moves.
+    /// Acts on places as they are after `context.frame` frames and on velocities that the next frame's
+    /// opening half kick is in already, before anything moves.
     void update(SlodTree& tree, const UpdateContext& context);
 
     /// Members changed in the last update.
