@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cluster/particles.hpp"
+#include "core/number_text.hpp"
 
 namespace slod {
 namespace {
@@ -47,7 +48,7 @@ void check(const ClusterStore& store, std::size_t slot, std::uint64_t frame, con
     const auto expect = [&](std::string_view what, double difference, double most) {
         if (!(difference <= roundings * most))
             found.push_back("cluster " + std::to_string(slot) + ": its " + std::string(what) +
-                            " is off that of its members by " + std::to_string(difference / most) +
+                            " is off that of its members by " + number_text(difference / most) +
                             " of the largest there is");
     };
     expect("mass", std::abs(sums.mass - mass), mass);

@@ -34,6 +34,14 @@ TEST_F(SumsProblems, AreFoundInAWrongMass)
     EXPECT_FALSE(sums_problems(store, 16).empty());
 }
 
+TEST_F(SumsProblems, SayByWhatShareHoweverSmall)
+{
+    store.clusters.moments[1].weight *= 1 + 1e-10;
+    const Problems found = sums_problems(store, 16);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NE(found[0].find("e-1"), std::string::npos) << found[0];
+}
+
 // What the moments say moves the members, and so their mean, away from the centre.
 TEST_F(SumsProblems, AreFoundInAMomentThatIsNotTheMembers)
 {
