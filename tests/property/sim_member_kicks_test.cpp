@@ -186,10 +186,11 @@ TEST(MemberKicks, LeaveThePaceAtWhichMapsAreRenewed)
 }
 
 // Pools fall due one by one, so members that leave theirs come to clusters that were kicked in every frame of
-// their lives.
+// their lives. Slabs as small as these have just the rows that they are asked for.
 TEST(MemberKicks, LeaveRoomForStrays)
 {
     SmallScene scene = cloud_at_rest(2000);
+    scene.settings.background.max_cluster_size = 10;
     scene.settings.background.max_breadth = 1;
     scene.settings.background.pool_factor = 2;
     scene.settings.motion.longest_life = 16;
