@@ -1,5 +1,6 @@
 #include "sim/integrator.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 #include "core/parallel.hpp"
@@ -52,15 +53,17 @@ void propagate_clusters(ClusterTable& clusters, const Propagator& step)
     });
 }
 
-bool all_finite(const ClusterTable& clusters)
+bool all_finite(const ClusterTable& clusters, std::uint64_t turn, std::uint64_t turns)
 {
     std::atomic<bool> finite{true};
-    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
-        bool of_block = true;
-        for (std::size_t slot = first; slot < last; ++slot)
-            of_block = of_block && (!clusters.alive(slot) || clusters.position[slot].allFinite());
-        if (!of_block)
-            finite = false;
+    const std::size_t blocks = block_count(clusters.slot_count(), block);
+    const std::size_t first_block = turn % turns;
+    const std::size_t in_turn = first_block < blocks ? (blocks - first_block - 1) / turns + 1 : 0;
+    for_each_task(in_turn, [&](std::size_t i) {
+        const std::size_t first = (first_block + i * turns) * block;
+        for (std::size_t slot = first; slot < std::min(first + block, clusters.slot_count()); ++slot)
+            if (clusters.alive(slot) && !clusters.position[slot].allFinite())
+                finite = false;
     });
     return finite;
 }

@@ -33,6 +33,7 @@ struct Simulation::State {
     void kick();
     void close_kick();
     void propagate();
+    bool places_are_finite() const;
     void turn_wind(); ///< Takes this frame's wind, where that is the same everywhere
     void emit();
     void update();
