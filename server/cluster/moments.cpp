@@ -8,16 +8,6 @@
 namespace slod {
 namespace {
 
-void add_square(Symmetric3& sum, double weight, const Vector3d& v)
-{
-    sum.xx += weight * v.x() * v.x();
-    sum.xy += weight * v.x() * v.y();
-    sum.xz += weight * v.x() * v.z();
-    sum.yy += weight * v.y() * v.y();
-    sum.yz += weight * v.y() * v.z();
-    sum.zz += weight * v.z() * v.z();
-}
-
 /// Sums about the means instead of about the forming centre.
 struct CentralMoments {
     Matrix3d oo, ww, ow;
@@ -46,8 +36,8 @@ void Moments::add(double member_weight, const Vector3d& offset, const Vector3d& 
     weight += member_weight;
     o += member_weight * offset;
     w += member_weight * velocity;
-    add_square(oo, member_weight, offset);
-    add_square(ww, member_weight, velocity);
+    oo += Symmetric3::square(member_weight, offset);
+    ww += Symmetric3::square(member_weight, velocity);
     ow += member_weight * offset * velocity.transpose();
 }
 

@@ -22,6 +22,30 @@ struct Symmetric3 {
         return full;
     }
 
+    Symmetric3& operator+=(const Symmetric3& other)
+    {
+        xx += other.xx;
+        xy += other.xy;
+        xz += other.xz;
+        yy += other.yy;
+        yz += other.yz;
+        zz += other.zz;
+        return *this;
+    }
+
+    friend Symmetric3 operator*(double factor, const Symmetric3& m)
+    {
+        return {factor * m.xx, factor * m.xy, factor * m.xz, factor * m.yy, factor * m.yz, factor * m.zz};
+    }
+
+    /// weight v v^T
+    static Symmetric3 square(double weight, const Vector3d& v)
+    {
+        const Vector3d weighted = weight * v;
+        return {weighted.x() * v.x(), weighted.x() * v.y(), weighted.x() * v.z(),
+                weighted.y() * v.y(), weighted.y() * v.z(), weighted.z() * v.z()};
+    }
+
     static Symmetric3 of(const Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
 };
 

@@ -1,7 +1,5 @@
 #include "effects/collisions.hpp"
 
-#include <numeric>
-
 #include "core/make_room.hpp"
 #include "core/parallel.hpp"
 
@@ -122,15 +120,8 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
     if (ending_.empty())
         return 0;
     end_clusters(tree, ending_, context);
-    grouping_.order.resize(grouping_.particles.size());
-    std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
-    form_groups(grouping_, context);
-    for (const ClusterSlot slot : grouping_.slots) {
-        if (!clusters.position[slot.index].allFinite())
-            refuse_unbounded(context.frame);
-        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
-        link(tree.of(pool), clusters, pool.pool, slot);
-    }
+    form_groups_in_order(grouping_, context);
+    link_where_they_are(tree, grouping_, context);
     return expired_;
 }
 

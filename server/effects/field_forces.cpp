@@ -21,16 +21,6 @@ Symmetric3 symmetric_part(const Matrix3d& m)
     return Symmetric3::of(0.5 * (m + m.transpose()));
 }
 
-void add(Symmetric3& sum, const Symmetric3& more)
-{
-    sum.xx += more.xx;
-    sum.xy += more.xy;
-    sum.xz += more.xz;
-    sum.yy += more.yy;
-    sum.yz += more.yz;
-    sum.zz += more.zz;
-}
-
 } // namespace
 
 FieldForces::FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity)
@@ -69,7 +59,7 @@ void FieldForces::add_to(ClusterTable& clusters) const
             }
             clusters.acceleration[slot] += field.value;
             if (clusters.columns.tide)
-                add(clusters.tide[slot], symmetric_part(field.gradient));
+                clusters.tide[slot] += symmetric_part(field.gradient);
             if (clusters.columns.turning)
                 clusters.turning[slot] = turning(field.gradient);
         }

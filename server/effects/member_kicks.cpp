@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/make_room.hpp"
 #include "core/parallel.hpp"
@@ -87,17 +86,10 @@ void MemberKicks::update(SlodTree& tree, const UpdateContext& context)
     if (ending_.empty())
         return;
     end_clusters(tree, ending_, context);
-    grouping_.order.resize(grouping_.particles.size());
-    std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
-    form_groups(grouping_, context);
-    for (std::size_t group = 0; group < grouping_.groups.size(); ++group) {
-        const ClusterSlot slot = grouping_.slots[grouping_.groups[group].first_slot];
-        if (!clusters.position[slot.index].allFinite())
-            refuse_unbounded(context.frame);
-        write(clusters, slot.index, measured_[group]);
-        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
-        link(tree.of(pool), clusters, pool.pool, slot);
-    }
+    form_groups_in_order(grouping_, context);
+    for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
+        write(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
+    link_where_they_are(tree, grouping_, context);
 }
 
 /// Those with a member that may be too fast, by the bound on velocities, which is a float.

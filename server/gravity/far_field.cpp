@@ -6,6 +6,7 @@ namespace slod {
 namespace {
 
 using namespace simd::FarTerm;
+using namespace simd::Entry;
 
 /// Indices of symmetric tensors' entries, as FarTerm has them: x, y and z are 0, 1 and 2.
 constexpr std::size_t triples[10][3] = {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 1, 1}, {0, 1, 2},
@@ -14,12 +15,6 @@ constexpr std::size_t quadruples[15][4] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0,
                                            {0, 0, 1, 2}, {0, 0, 2, 2}, {0, 1, 1, 1}, {0, 1, 1, 2},
                                            {0, 1, 2, 2}, {0, 2, 2, 2}, {1, 1, 1, 1}, {1, 1, 1, 2},
                                            {1, 1, 2, 2}, {1, 2, 2, 2}, {2, 2, 2, 2}};
-
-/// Places of those entries.
-constexpr std::size_t of2[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-constexpr std::size_t of3[6][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}, {3, 6, 7}, {4, 7, 8}, {5, 8, 9}};
-constexpr std::size_t of4[10][3] = {{0, 1, 2}, {1, 3, 4},   {2, 4, 5},   {3, 6, 7},   {4, 7, 8},
-                                    {5, 8, 9}, {6, 10, 11}, {7, 11, 12}, {8, 12, 13}, {9, 13, 14}};
 
 constexpr double delta(std::size_t i, std::size_t j)
 {

@@ -5,41 +5,16 @@
 namespace slod {
 namespace {
 
-/// Adds those of a point mass.
-void add_point(Symmetric3& moments, double mass, const Vector3d& offset)
-{
-    const Vector3d weighted = mass * offset;
-    moments.xx += weighted.x() * offset.x();
-    moments.xy += weighted.x() * offset.y();
-    moments.xz += weighted.x() * offset.z();
-    moments.yy += weighted.y() * offset.y();
-    moments.yz += weighted.y() * offset.z();
-    moments.zz += weighted.z() * offset.z();
-}
-
-void add(Symmetric3& moments, double mass, const Symmetric3& others)
-{
-    moments.xx += mass * others.xx;
-    moments.xy += mass * others.xy;
-    moments.xz += mass * others.xz;
-    moments.yy += mass * others.yy;
-    moments.yz += mass * others.yz;
-    moments.zz += mass * others.zz;
-}
-
 Symmetric3 per_mass(const Symmetric3& moments, double mass)
 {
-    Symmetric3 result;
-    if (mass > 0)
-        add(result, 1 / mass, moments);
-    return result;
+    return mass > 0 ? 1 / mass * moments : Symmetric3{};
 }
 
 Symmetric3 of_leaf(const ForceView& view, const ForceView::Node& leaf)
 {
     Symmetric3 moments;
     for (std::uint32_t body = leaf.first; body < leaf.first + leaf.count; ++body)
-        add_point(moments, view.mass[body], view.position(body) - leaf.centre);
+        moments += Symmetric3::square(view.mass[body], view.position(body) - leaf.centre);
     return per_mass(moments, leaf.mass);
 }
 
@@ -49,8 +24,8 @@ Symmetric3 of_inner(const ForceView& view, std::size_t index)
     const ForceView::Node& node = view.nodes[index];
     Symmetric3 moments;
     for (std::size_t child = index + 1; child < node.next; child = view.nodes[child].next) {
-        add(moments, view.nodes[child].mass, view.second_moments[child]);
-        add_point(moments, view.nodes[child].mass, view.nodes[child].centre - node.centre);
+        moments += view.nodes[child].mass * view.second_moments[child];
+        moments += Symmetric3::square(view.nodes[child].mass, view.nodes[child].centre - node.centre);
     }
     return per_mass(moments, node.mass);
 }

@@ -53,9 +53,10 @@ struct GravitySettings {
     Multipoles multipoles = Multipoles::Quadrupole;
     double opening_angle = 0.5;     ///< radius over distance, of the geometric criterion
     double force_tolerance = 0.001; ///< of the relative criterion
-    /// Acting bodies below which all pairs are summed: the walk is only faster where it gains more than a
-    /// tenth. One thread, with tides, ms of the sum and of the walk, for 2000, 2500, 3000 and 4000 bodies: in
-    /// a Plummer sphere 2.3 2.3, 3.6 3.4, 4.9 4.4, 8.6 6.3; in a disc 2.2 2.1, 3.5 2.2, 5.1 2.6, 8.8 4.2.
+    /// Acting bodies below which all pairs are summed, which is exact and never more than 5 ms. One thread,
+    /// with tides, ms of the sum and of the walk, for 1000, 1500, 2000, 2500, 3000 and 4000 bodies: in a
+    /// Plummer sphere 0.6 0.7, 1.3 1.3, 2.2 1.9, 3.5 2.4, 5.2 3.1, 8.9 4.4; in a disc 0.6 0.5, 1.3
+    /// 0.8, 2.2 1.2, 3.5 1.6, 5.0 1.9, 8.3 2.6.
     std::uint32_t direct_below = 3000;
 
     friend bool operator==(const GravitySettings&, const GravitySettings&) = default;

@@ -97,12 +97,8 @@ void add_far_nodes(const FarPoint<Real>& point, const GravityNodes<Real>& nodes)
     }
 }
 
-/// Place among six of the entry (i, j) of a symmetric matrix, among ten of one more index, among fifteen of
-/// two.
-constexpr std::size_t entry2[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-constexpr std::size_t entry3[6][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}, {3, 6, 7}, {4, 7, 8}, {5, 8, 9}};
-constexpr std::size_t entry4[6][6] = {{0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},    {2, 4, 5, 7, 8, 9},
-                                      {3, 6, 7, 10, 11, 12}, {4, 7, 8, 11, 12, 13}, {5, 8, 9, 12, 13, 14}};
+/// A pair of indices for each entry of a symmetric matrix.
+constexpr std::size_t pair_of[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
 
 template <class Real>
 void add_expansion(const GravityTargets<Real>& targets, const FarExpansion<Real>& far)
@@ -117,19 +113,19 @@ void add_expansion(const GravityTargets<Real>& targets, const FarExpansion<Real>
                                    y[1] * y[1], 2 * (y[1] * y[2]), y[2] * y[2]};
         Lanes<Real> slope[6]; // (a - pull) = slope y
         for (std::size_t e = 0; e < 6; ++e) {
-            const Lanes<Real> once = far.third[entry3[e][0]] * y[0] + far.third[entry3[e][1]] * y[1] +
-                                     far.third[entry3[e][2]] * y[2];
-            Lanes<Real> twice = far.fourth[entry4[e][0]] * yy[0];
+            const Lanes<Real> once = far.third[Entry::of3[e][0]] * y[0] + far.third[Entry::of3[e][1]] * y[1] +
+                                     far.third[Entry::of3[e][2]] * y[2];
+            Lanes<Real> twice = far.fourth[Entry::of4[Entry::of3[e][0]][0]] * yy[0];
             for (std::size_t k = 1; k < 6; ++k)
-                twice += far.fourth[entry4[e][k]] * yy[k];
+                twice += far.fourth[Entry::of4[Entry::of3[e][pair_of[k][0]]][pair_of[k][1]]] * yy[k];
             slope[e] = far.tide[e] + (Real(0.5) * once + Real(1) / 6 * twice);
             if (targets.txx != nullptr)
                 add_to<Real>(tides[e] + first, per_length * (far.tide[e] + (once + Real(0.5) * twice)));
         }
         for (std::size_t i = 0; i < 3; ++i)
             add_to<Real>(accelerations[i] + first,
-                         far.pull[i] + (slope[entry2[i][0]] * y[0] + slope[entry2[i][1]] * y[1] +
-                                        slope[entry2[i][2]] * y[2]));
+                         far.pull[i] + (slope[Entry::of2[i][0]] * y[0] + slope[Entry::of2[i][1]] * y[1] +
+                                        slope[Entry::of2[i][2]] * y[2]));
     }
 }
 

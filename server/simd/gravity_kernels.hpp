@@ -51,6 +51,15 @@ struct GravityNodes : GravitySources<Real> {
     const Real* trace;                       ///< half of theirs
 };
 
+/// Places of a symmetric tensor's entries among those listed below: of a matrix by row and column, and of the
+/// next rank by an entry of the rank before and one more index.
+namespace Entry {
+constexpr std::size_t of2[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+constexpr std::size_t of3[6][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}, {3, 6, 7}, {4, 7, 8}, {5, 8, 9}};
+constexpr std::size_t of4[10][3] = {{0, 1, 2}, {1, 3, 4},   {2, 4, 5},   {3, 6, 7},   {4, 7, 8},
+                                    {5, 8, 9}, {6, 10, 11}, {7, 11, 12}, {8, 12, 13}, {9, 13, 14}};
+} // namespace Entry
+
 /// What far nodes do about one point, the origin, where targets of one softening are. With d from there to a
 /// node, r^2 = |d|^2 + q_target + q_node, n = d / r, R = `reach` and p = m / r^2, sums over the nodes of
 ///  - FarTerm::Pull     the acceleration at the origin, with the second moments' share: 3 terms,

@@ -1,6 +1,7 @@
 #include "tree/grouping.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -150,6 +151,24 @@ void form_groups(Grouping& grouping, const UpdateContext& context)
         for (std::size_t group = begin; group < end; ++group)
             form_group(grouping, grouping.groups[group], context);
     });
+}
+
+void form_groups_in_order(Grouping& grouping, const UpdateContext& context)
+{
+    grouping.order.resize(grouping.particles.size());
+    std::iota(grouping.order.begin(), grouping.order.end(), 0U);
+    form_groups(grouping, context);
+}
+
+void link_where_they_are(SlodTree& tree, const Grouping& grouping, const UpdateContext& context)
+{
+    ClusterTable& clusters = context.store.clusters;
+    for (const ClusterSlot slot : grouping.slots) {
+        if (!clusters.position[slot.index].allFinite())
+            refuse_unbounded(context.frame);
+        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
+        link(tree.of(pool), clusters, pool.pool, slot);
+    }
 }
 
 void refuse_unbounded(std::uint64_t frame)

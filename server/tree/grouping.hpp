@@ -57,6 +57,13 @@ void end_clusters(SlodTree& tree, std::span<const ClusterSlot> slots, const Upda
 /// pull.
 void form_groups(Grouping& grouping, const UpdateContext& context);
 
+/// Forms each group as form_groups() does, its particles in the order that they are in.
+void form_groups_in_order(Grouping& grouping, const UpdateContext& context);
+
+/// Adds the clusters just formed to the pools where their centres are. Throws std::overflow_error as
+/// refuse_unbounded() does.
+void link_where_they_are(SlodTree& tree, const Grouping& grouping, const UpdateContext& context);
+
 /// Adds the clusters just formed to their groups' pools.
 void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters);
 

@@ -127,32 +127,11 @@ bool MergeRules::fit(const Crowd& crowd, std::uint32_t parts) const
     return !wider_than(limit, Symmetric3::of(crowd.moments), crowd.number);
 }
 
-bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
-               std::uint64_t frame, const Vector3d& reference)
-{
-    const ClusterTable& clusters = store.clusters;
-    const MergeRules rules(region);
-    return clusters.count[a.index] + clusters.count[b.index] <= std::uint32_t(region.max_cluster_size) &&
-           rules.move_alike(velocity_ball(store, a.index, frame, reference),
-                            velocity_ball(store, b.index, frame, reference)) &&
-           (!rules.limit_breadth() ||
-            rules.fit(crowd_of(store, a.index, frame) + crowd_of(store, b.index, frame)));
-}
-
 bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
                  std::uint64_t frame, const Vector3d& reference)
 {
     const VelocityBall ball = velocity_ball(store, slot.index, frame, reference);
     return MergeRules(region).move_alike(ball, ball);
-}
-
-double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass)
-{
-    const double ratio = region.speed_ratio;
-    const double cosine = portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine;
-    const double farthest = speed * std::sqrt(1 + ratio * ratio - 2 * ratio * cosine);
-    // Below the floor any two velocities may merge.
-    return other_mass / (mass + other_mass) * std::max(farthest, 2 * region.speed_floor);
 }
 
 bool too_wide(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot, std::uint64_t frame)

@@ -33,7 +33,11 @@ Crowd crowd_of(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
 /// Both as one.
 Crowd operator+(const Crowd& a, const Crowd& b);
 
-/// A region's rules for merges, ready for many pairs.
+/// A region's rules for clusters that become one (O'Brien et al. 2001, section 4.1), ready for many: together
+/// no wider than the maximum breadth, and speeds and directions within its limits. Those hold for any member
+/// of one and any of the other, not only for their means, so that a chain of merges cannot exceed them,
+/// unless merged velocities collapse: then members have no others than earlier merges have left them. Below
+/// the speed floor they are not asked for.
 class MergeRules {
 public:
     explicit MergeRules(const RegionSettings& region);
@@ -54,26 +58,11 @@ private:
     double least_cosine_; ///< of the angle
 };
 
-/// Whether two clusters may become one (O'Brien et al. 2001, section 4.1): together no more than the
-/// maximum size and breadth, and speeds and directions, relative to the velocity `reference`, within the
-/// region's limits. Those hold for any member of one and any of the other, not only for their means, so
-/// that a chain of merges cannot exceed them, unless merged velocities collapse: then members have no others
-/// than earlier merges have left them. Below the speed floor they are not asked for.
-bool may_merge(const ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
-               std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
-
 /// Whether the velocities of any two of its members are within the region's limits to each other: never true
 /// falsely, but false of some whose ball is wider than what is in it. That of two equal bodies 29.9 degrees
 /// apart is 31 degrees wide, though the two may merge.
 bool moves_alike(const ClusterStore& store, const RegionSettings& region, ClusterSlot slot,
                  std::uint64_t frame, const Vector3d& reference = {0, 0, 0});
-
-/// How much a merge within the region's limits can change the velocity of a cluster of this mass and speed,
-/// relative to the same reference, when its partner has `other_mass`: length / time. The formulas of section
-/// 6.2 are no such bounds: they leave out that a turn changes the speed, and that the faster one turns the
-/// slower. Of the velocities that the limits allow, none is farther away than the fastest one at the largest
-/// angle.
-double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass);
 
 /// Whether the cluster is to be split: wider than its region allows or, in rigid motion, drifted too far
 /// apart by its members' own velocities. Size and breadth are goals: a cluster of nearly the maximum size

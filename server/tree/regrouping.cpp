@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/parallel.hpp"
 #include "tree/merge_rules.hpp"
@@ -204,15 +203,10 @@ void Regrouping::dissolve_splitting(SlodTree& tree)
 /// Divides the groups of dissolved clusters by `key`, forms clusters and links each where it is.
 void Regrouping::form_dissolved(SlodTree& tree, Vector3d Particle::*key)
 {
-    ClusterTable& clusters = context_.store.clusters;
     for (std::size_t i = 0; i < grouping_.particles.size(); ++i)
         grouping_.place[i] = grouping_.particles[i].*key;
-    std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
-    form_groups(grouping_, context_);
-    for (const ClusterSlot slot : grouping_.slots) {
-        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
-        link(tree.of(pool), clusters, pool.pool, slot);
-    }
+    form_groups_in_order(grouping_, context_);
+    link_where_they_are(tree, grouping_, context_);
 }
 
 /// Lets the clusters of each merging group go at their common velocity, by mass or, when all are massless, by

@@ -5,6 +5,7 @@
 
 #include "support/clouds.hpp"
 #include "support/little_worlds.hpp"
+#include "support/merging_pairs.hpp"
 #include "tree/merge_rules.hpp"
 #include "tree/regrouping.hpp"
 
@@ -145,7 +146,7 @@ TEST(Regrouping, GoesOnUntilNothingMayMerge)
         for (ClusterSlot a = pool.first; a.valid(); a = world.store.clusters.next[a.index])
             for (ClusterSlot b = world.store.clusters.next[a.index]; b.valid();
                  b = world.store.clusters.next[b.index])
-                EXPECT_FALSE(may_merge(world.store, limits, a, b, 400));
+                EXPECT_FALSE(test::may_merge(world.store, limits, a, b));
     EXPECT_LT(world.store.clusters.alive_count(), 100U);
 }
 

@@ -233,7 +233,7 @@ TEST(SlodStability, S04_AChainOfMergesDoesNotExceedTheLimit)
     for (std::uint64_t id = 1; id <= 63; ++id) {
         const Particle next = flying(turned(mean, 10 * degree), id);
         test::World world({MapKind::Identity, 0, 1}, {}, limits, 8);
-        accepted = accepted && may_merge(world.store, limits, world.add(chain), world.add({next}), 0);
+        accepted = accepted && may_merge(world.store, limits, world.add(chain), world.add({next}));
         chain.push_back(next);
         if (accepted) {
             joined = chain.size();

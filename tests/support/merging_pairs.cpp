@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
+#include "core/portable_math.hpp"
 #include "support/little_worlds.hpp"
 #include "support/random_draws.hpp"
+#include "tree/gathering.hpp"
 #include "tree/regrouping.hpp"
 
 namespace slod::test {
@@ -65,6 +68,36 @@ void merge_pairs(std::vector<MergingPair>& pairs, const RegionSettings& limits)
         pair.merged = true;
         pair.merged_velocity = clusters.velocity[slot];
     }
+}
+
+bool may_merge(ClusterStore& store, const RegionSettings& region, ClusterSlot a, ClusterSlot b,
+               const Vector3d& reference)
+{
+    ClusterTable& clusters = store.clusters;
+    const auto links = [&](ClusterSlot slot) {
+        return std::tie(clusters.pool[slot.index], clusters.region[slot.index], clusters.next[slot.index],
+                        clusters.previous[slot.index]);
+    };
+    using Links = std::tuple<PoolId, std::uint16_t, ClusterSlot, ClusterSlot>;
+    const Links kept_a = links(a), kept_b = links(b);
+    SlodTree tree(region, 1e9);
+    const PoolRef pool = locate_or_grow(tree, subject_of(clusters, a.index));
+    for (const ClusterSlot slot : {b, a}) // the last one is first
+        link(tree.of(pool), clusters, pool.pool, slot);
+    Gathering gathering;
+    gathering.find(tree, store, 0, std::span(&reference, 1));
+    links(a) = kept_a;
+    links(b) = kept_b;
+    return gathering.groups.size() == 1;
+}
+
+double velocity_change_bound(const RegionSettings& region, double speed, double mass, double other_mass)
+{
+    const double ratio = region.speed_ratio;
+    const double cosine = portable_sincos(region.angle_deg * std::numbers::pi / 180).cosine;
+    const double farthest = speed * std::sqrt(1 + ratio * ratio - 2 * ratio * cosine);
+    // Below the floor any two velocities may merge.
+    return other_mass / (mass + other_mass) * std::max(farthest, 2 * region.speed_floor);
 }
 
 } // namespace slod::test

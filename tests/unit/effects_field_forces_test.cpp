@@ -5,41 +5,32 @@
 #include "effects/fields/attractor.hpp"
 #include "effects/fields/field_set.hpp"
 #include "effects/fields/spring.hpp"
+#include "support/field_at.hpp"
 
 // Accelerations of place against their closed forms.
 namespace slod::test {
 namespace {
 
-template <class F>
-FieldValue at(const typename F::Settings& settings, const Vector3d& x)
-{
-    FieldValue sum;
-    F(settings, FieldSource{}).add(x, 0, sum);
-    return sum;
-}
-
-constexpr double tolerance = 16 * 0x1p-52; ///< some ten roundings
-
 TEST(Attractor, PullsByTheInverseSquareOfASoftenedDistance)
 {
     const Vector3d d(3, 0, 0);
     const FieldValue far =
-        at<Attractor>({.position = {1, 2, 3}, .strength = 5, .softening = 4}, d + Vector3d(1, 2, 3));
-    EXPECT_LE((far.value - Vector3d(-5 * 3 / 125.0, 0, 0)).norm(), tolerance);
+        field_at<Attractor>({.position = {1, 2, 3}, .strength = 5, .softening = 4}, d + Vector3d(1, 2, 3));
+    EXPECT_LE((far.value - Vector3d(-5 * 3 / 125.0, 0, 0)).norm(), field_tolerance);
 }
 
 // F09
 TEST(Attractor, DoesNotPullWhatIsAtItsPlace)
 {
-    const FieldValue here = at<Attractor>({.position = {1, 2, 3}, .softening = 0.1}, {1, 2, 3});
+    const FieldValue here = field_at<Attractor>({.position = {1, 2, 3}, .softening = 0.1}, {1, 2, 3});
     EXPECT_EQ(here.value, Vector3d(0, 0, 0));
-    EXPECT_NEAR(here.gradient.trace(), -3 / 1e-3, 3e3 * tolerance);
+    EXPECT_NEAR(here.gradient.trace(), -3 / 1e-3, 3e3 * field_tolerance);
 }
 
 TEST(Attractor, OfNegativeStrengthRepels)
 {
-    const FieldValue pulled = at<Attractor>({.strength = 2}, {0.3, 1, -2});
-    const FieldValue pushed = at<Attractor>({.strength = -2}, {0.3, 1, -2});
+    const FieldValue pulled = field_at<Attractor>({.strength = 2}, {0.3, 1, -2});
+    const FieldValue pushed = field_at<Attractor>({.strength = -2}, {0.3, 1, -2});
     EXPECT_EQ(pushed.value, Vector3d(-pulled.value));
     EXPECT_EQ(pushed.gradient, Matrix3d(-pulled.gradient));
 }
@@ -55,14 +46,14 @@ TEST(Attractor, FadesTowardsItsRadiusAndIsNothingBeyond)
         EXPECT_LT(depth, share);
         share = depth;
     }
-    EXPECT_EQ(at<Attractor>(bounded, {2, 0, 0}).value, Vector3d(0, 0, 0));
-    EXPECT_EQ(at<Attractor>(bounded, {1.5, 1.5, 0}).value, Vector3d(0, 0, 0));
+    EXPECT_EQ(field_at<Attractor>(bounded, {2, 0, 0}).value, Vector3d(0, 0, 0));
+    EXPECT_EQ(field_at<Attractor>(bounded, {1.5, 1.5, 0}).value, Vector3d(0, 0, 0));
 }
 
 // F27
 TEST(Spring, OfNoLengthPullsNothing)
 {
-    EXPECT_EQ(at<Spring>({.anchor = {1, 2, 3}, .stiffness = 1e6}, {1, 2, 3}).value, Vector3d(0, 0, 0));
+    EXPECT_EQ(field_at<Spring>({.anchor = {1, 2, 3}, .stiffness = 1e6}, {1, 2, 3}).value, Vector3d(0, 0, 0));
 }
 
 // F26: kicks at the ends of a frame are stable up to angular frequency 2 / step; beyond, the scene is

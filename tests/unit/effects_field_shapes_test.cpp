@@ -4,25 +4,16 @@
 
 #include "effects/fields/buoyancy.hpp"
 #include "effects/fields/vortex.hpp"
+#include "support/field_at.hpp"
 
 // Vortices and water by their formulae.
 namespace slod::test {
 namespace {
 
-template <class F>
-FieldValue at(const typename F::Settings& settings, const Vector3d& x)
-{
-    FieldValue sum;
-    F(settings, FieldSource{}).add(x, 0, sum);
-    return sum;
-}
-
-constexpr double tolerance = 16 * 0x1p-52; ///< some ten roundings
-
 // F08
 TEST(Vortex, IsFiniteOnItsLine)
 {
-    const FieldValue here = at<Vortex>({.position = {1, 2, 3}, .core_radius = 0.1}, {1, 2, 7});
+    const FieldValue here = field_at<Vortex>({.position = {1, 2, 3}, .core_radius = 0.1}, {1, 2, 7});
     EXPECT_EQ(here.value, Vector3d(0, 0, 0));
     EXPECT_TRUE(here.gradient.allFinite());
 }
@@ -30,20 +21,21 @@ TEST(Vortex, IsFiniteOnItsLine)
 TEST(Vortex, TurnsByTheRightHandAndFallsOffWithTheDistance)
 {
     const VortexSettings vortex{.axis = {0, 0, 2}, .strength = 6, .core_radius = 1};
-    EXPECT_LE((at<Vortex>(vortex, {3, 0, 5}).value - Vector3d(0, 6 * 3 / 10.0, 0)).norm(), 8 * tolerance);
-    EXPECT_LE((at<Vortex>(vortex, {0, 1, 0}).value - Vector3d(-3, 0, 0)).norm(), 8 * tolerance);
+    EXPECT_LE((field_at<Vortex>(vortex, {3, 0, 5}).value - Vector3d(0, 6 * 3 / 10.0, 0)).norm(),
+              8 * field_tolerance);
+    EXPECT_LE((field_at<Vortex>(vortex, {0, 1, 0}).value - Vector3d(-3, 0, 0)).norm(), 8 * field_tolerance);
 }
 
 // F29: the lift is continuous at the surface, and so is its slope.
 TEST(Buoyancy, SetsInContinuouslyAboutTheLevel)
 {
     const BuoyancySettings water{.level = 2, .lift = 3, .transition = 0.5};
-    EXPECT_EQ(at<Buoyancy>(water, {0, 0, 2.25}).value.z(), 0);
-    EXPECT_NEAR(at<Buoyancy>(water, {0, 0, 2}).value.z(), 1.5, tolerance);
-    EXPECT_EQ(at<Buoyancy>(water, {0, 0, 1.75}).value.z(), 3);
+    EXPECT_EQ(field_at<Buoyancy>(water, {0, 0, 2.25}).value.z(), 0);
+    EXPECT_NEAR(field_at<Buoyancy>(water, {0, 0, 2}).value.z(), 1.5, field_tolerance);
+    EXPECT_EQ(field_at<Buoyancy>(water, {0, 0, 1.75}).value.z(), 3);
     double before = 0, slope_before = 0;
     for (double z = 2.3; z > 1.7; z -= 1e-4) {
-        const FieldValue here = at<Buoyancy>(water, {0, 0, z});
+        const FieldValue here = field_at<Buoyancy>(water, {0, 0, z});
         // The slope is at most 1.5 lift / transition, and its own 6 lift / transition^2.
         EXPECT_LE(std::abs(here.value.z() - before), 1e-4 * 1.5 * 3 / 0.5 * (1 + 1e-9));
         EXPECT_LE(std::abs(here.gradient(2, 2) - slope_before), 1e-4 * 6 * 3 / 0.25 * (1 + 1e-9));

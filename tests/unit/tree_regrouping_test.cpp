@@ -7,6 +7,7 @@
 
 #include "support/clouds.hpp"
 #include "support/little_worlds.hpp"
+#include "support/merging_pairs.hpp"
 #include "support/random_draws.hpp"
 #include "tree/merge_rules.hpp"
 #include "tree/regrouping.hpp"
@@ -193,13 +194,15 @@ TEST(MayMerge, AsksForSizeBreadthSpeedRatioAndAngle)
             particle.velocity = pair.velocity;
         const ClusterSlot a = world.add(first);
         const ClusterSlot b = world.add(second);
-        EXPECT_EQ(may_merge(world.store, limits, a, b, 0), pair.may) << pair.claim;
-        EXPECT_EQ(may_merge(world.store, limits, b, a, 0), pair.may) << pair.claim << ", the other way round";
+        EXPECT_EQ(test::may_merge(world.store, limits, a, b), pair.may) << pair.claim;
+        EXPECT_EQ(test::may_merge(world.store, limits, b, a), pair.may)
+            << pair.claim << ", the other way round";
         for (const ClusterSlot slot : {a, b})
             world.store.clusters.velocity[slot.index] *= 0.2; // now slower than the floor
         const bool slow = std::max(1.0, pair.velocity.norm()) * 0.2 <= 0.5;
         const bool fits = pair.size <= 5 && pair.distance < 4;
-        EXPECT_EQ(may_merge(world.store, limits, a, b, 0), slow && fits) << pair.claim << ", below the floor";
+        EXPECT_EQ(test::may_merge(world.store, limits, a, b), slow && fits)
+            << pair.claim << ", below the floor";
     }
 }
 
@@ -213,10 +216,10 @@ TEST(MayMerge, TakesParallelVelocitiesAsSuchWhateverTheirRounding)
         first[0].velocity = random_direction(random);
         second[0].velocity = (1 + 3 * random.uniform()) * first[0].velocity;
         const ClusterSlot a = world.add(first), b = world.add(second);
-        ASSERT_TRUE(may_merge(world.store, limits, a, b, 0)) << first[0].velocity.transpose();
+        ASSERT_TRUE(test::may_merge(world.store, limits, a, b)) << first[0].velocity.transpose();
         const Vector3d across = first[0].velocity.cross(Vector3d(random_direction(random))).normalized();
         world.store.clusters.velocity[b.index] += 1e-6 * across;
-        ASSERT_FALSE(may_merge(world.store, limits, a, b, 0)) << "a millionth off";
+        ASSERT_FALSE(test::may_merge(world.store, limits, a, b)) << "a millionth off";
     }
 }
 
@@ -236,8 +239,8 @@ TEST(MayMerge, MeasuresTheUnionByItsParticlesPlaces)
             const ClusterSlot a = world.add(first);
             const ClusterSlot b = world.add(second);
             // Offsets are rounded to float: 1e-6 is well beyond that.
-            EXPECT_TRUE(may_merge(world.store, {.max_breadth = measured * (1 + 1e-6)}, a, b, 0));
-            EXPECT_FALSE(may_merge(world.store, {.max_breadth = measured * (1 - 1e-6)}, a, b, 0));
+            EXPECT_TRUE(test::may_merge(world.store, {.max_breadth = measured * (1 + 1e-6)}, a, b));
+            EXPECT_FALSE(test::may_merge(world.store, {.max_breadth = measured * (1 - 1e-6)}, a, b));
         }
     }
 }
@@ -257,8 +260,8 @@ TEST(MayMerge, MeasuresTheUnionAlikeWhateverTheCommonMass)
         const double measured = breadth_of(both);
         const ClusterSlot a = world.add(first);
         const ClusterSlot b = world.add(second);
-        EXPECT_TRUE(may_merge(world.store, {.max_breadth = measured * (1 + 1e-6)}, a, b, 0)) << mass;
-        EXPECT_FALSE(may_merge(world.store, {.max_breadth = measured * (1 - 1e-6)}, a, b, 0)) << mass;
+        EXPECT_TRUE(test::may_merge(world.store, {.max_breadth = measured * (1 + 1e-6)}, a, b)) << mass;
+        EXPECT_FALSE(test::may_merge(world.store, {.max_breadth = measured * (1 - 1e-6)}, a, b)) << mass;
     }
 }
 
