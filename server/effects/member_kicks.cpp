@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/make_room.hpp"
-#include "core/parallel.hpp"
 #include "core/random.hpp"
 
 namespace slod {
@@ -29,92 +27,42 @@ MemberKicks::MemberKicks(const std::optional<SpeedLimitSettings>& limit,
 
 std::size_t MemberKicks::expected_members(std::size_t particle_count) const
 {
-    return reaches_all() ? particle_count : std::min(particle_count, 2 * members_.size() + 4096);
-}
-
-void MemberKicks::reserve(const ClusterTable& clusters, std::size_t member_count)
-{
-    const std::size_t slots = clusters.slot_capacity();
-    make_room(members_, member_count);
-    marks_.reserve(slots);
-    reached_.reserve(slots);
-    ending_.reserve(slots);
-    measured_.reserve(slots);
-    grouping_.reserve(member_count, slots, slots);
-}
-
-MemberKicks::Measured MemberKicks::measured(const ClusterTable& clusters, std::size_t slot)
-{
-    Measured measured;
-    if (clusters.columns.acceleration)
-        measured.acceleration = clusters.acceleration[slot];
-    if (clusters.columns.tide)
-        measured.tide = clusters.tide[slot];
-    if (clusters.columns.turning)
-        measured.turning = clusters.turning[slot];
-    if (clusters.columns.variance())
-        measured.variance = clusters.variance[slot];
-    return measured;
-}
-
-void MemberKicks::write(ClusterTable& clusters, std::size_t slot, const Measured& measured)
-{
-    if (clusters.columns.acceleration)
-        clusters.acceleration[slot] = measured.acceleration;
-    if (clusters.columns.tide)
-        clusters.tide[slot] = measured.tide;
-    if (clusters.columns.turning)
-        clusters.turning[slot] = measured.turning;
-    if (clusters.columns.variance())
-        clusters.variance[slot] = measured.variance;
+    return reaches_all() ? particle_count : std::min(particle_count, 2 * remaking_.member_count() + 4096);
 }
 
 void MemberKicks::update(SlodTree& tree, const UpdateContext& context)
 {
     ClusterTable& clusters = context.store.clusters;
-    find(context);
-    for_each_block(reached_.size(), 4, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            Reached& reached = reached_[i];
-            const auto members = std::span(members_).subspan(reached.first, reached.count);
-            map_out(context.store, reached.slot, context.frame, members);
-            for (Particle& member : members)
-                reached.changed += kick(member, context.frame, context.step) ? 1 : 0;
-        }
+    remaking_.find(context,
+                   [&](std::size_t slot) { return reaches_all() || may_be_too_fast(context, slot); });
+    remaking_.change([&](const Remaking::Mapped&, std::span<Particle> members) {
+        return std::uint32_t(std::count_if(members.begin(), members.end(), [&](Particle& member) {
+            return kick(member, context.frame, context.step);
+        }));
     });
-    gather(clusters);
-    if (ending_.empty())
-        return;
-    end_clusters(tree, ending_, context);
-    form_groups_in_order(grouping_, context);
-    for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
-        write(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
-    link_where_they_are(tree, grouping_, context);
+    changed_ = 0;
+    for (const Remaking::Mapped& mapped : remaking_.mapped()) {
+        changed_ += mapped.changed;
+        if (mapped.changed == 0)
+            continue;
+        if (mapped.count > 1) {
+            remaking_.remake(mapped, context);
+            continue;
+        }
+        const std::size_t slot = mapped.slot.index; // a single particle is given its new velocity
+        clusters.velocity[slot] = remaking_.members_of(mapped).front().velocity;
+        if (clusters.columns.withheld)
+            clusters.withheld[slot].setZero();
+    }
+    remaking_.form(tree, context);
 }
 
-/// Those with a member that may be too fast, by the bound on velocities, which is a float.
-void MemberKicks::find(const UpdateContext& context)
+/// By the bound on its members' velocities, which is a float.
+bool MemberKicks::may_be_too_fast(const UpdateContext& context, std::size_t slot) const
 {
     const ClusterTable& clusters = context.store.clusters;
-    marks_.resize(clusters.slot_count());
-    for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
-        for (std::size_t slot = first; slot < last; ++slot) {
-            marks_[slot] = clusters.alive(slot) ? 1 : 0;
-            if (marks_[slot] == 0 || reaches_all())
-                continue;
-            const double relative = velocity_bound(clusters, context.store.rule, slot, context.frame);
-            marks_[slot] = clusters.mean_velocity(slot).norm() + relative * (1 + 1e-5) > limit_ ? 1 : 0;
-        }
-    });
-    reached_.clear();
-    std::uint32_t total = 0;
-    for (std::uint32_t slot = 0; slot < marks_.size(); ++slot) {
-        if (marks_[slot] == 0)
-            continue;
-        reached_.push_back({.slot = {slot}, .first = total, .count = clusters.count[slot]});
-        total += clusters.count[slot];
-    }
-    members_.resize(total);
+    const double relative = velocity_bound(clusters, context.store.rule, slot, context.frame);
+    return clusters.mean_velocity(slot).norm() + relative * (1 + 1e-5) > limit_;
 }
 
 /// Kicks of uniform components with the variance of normal ones: what they come to over some frames is normal
@@ -131,42 +79,6 @@ bool MemberKicks::kick(Particle& particle, std::uint64_t frame, double step) con
     if (const double speed = particle.velocity.norm(); speed > limit_)
         particle.velocity *= limit_ / speed;
     return particle.velocity != before;
-}
-
-/// Single particles are given their new velocity; members of other clusters that changed are grouped, one
-/// group for each, which keeps the room that its cluster had for strays.
-void MemberKicks::gather(ClusterTable& clusters)
-{
-    grouping_.clear();
-    ending_.clear();
-    measured_.clear();
-    changed_ = 0;
-    for (const Reached& reached : reached_) {
-        const std::size_t slot = reached.slot.index;
-        changed_ += reached.changed;
-        if (reached.changed == 0)
-            continue;
-        if (reached.count == 1) {
-            clusters.velocity[slot] = members_[reached.first].velocity;
-            if (clusters.columns.withheld)
-                clusters.withheld[slot].setZero();
-            continue;
-        }
-        ending_.push_back(reached.slot);
-        measured_.push_back(measured(clusters, slot));
-        const auto first = std::uint32_t(grouping_.particles.size());
-        const float pull = clusters.columns.acceleration ? float(clusters.pull[slot]) : 0;
-        for (std::uint32_t i = reached.first; i < reached.first + reached.count; ++i) {
-            grouping_.particles.push_back(members_[i]);
-            grouping_.place.push_back(members_[i].position);
-            grouping_.pull.push_back(pull);
-        }
-        grouping_.groups.push_back({.pool = {clusters.region[slot], clusters.pool[slot]},
-                                    .first = first,
-                                    .count = reached.count,
-                                    .clusters = 1,
-                                    .spare_rows = clusters.slab[slot].capacity - reached.count});
-    }
 }
 
 } // namespace slod

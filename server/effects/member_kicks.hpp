@@ -2,11 +2,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "effects/member_settings.hpp"
-#include "tree/grouping.hpp"
-#include "tree/slod_tree.hpp"
+#include "effects/remaking.hpp"
 
 namespace slod {
 
@@ -22,7 +20,10 @@ public:
     bool reaches_all() const { return strength_ > 0; }
 
     /// Provides memory for so many members, in the clusters there is room for.
-    void reserve(const ClusterTable& clusters, std::size_t member_count);
+    void reserve(const ClusterTable& clusters, std::size_t member_count)
+    {
+        remaking_.reserve(clusters, member_count);
+    }
 
     /// Members expected to be changed in a frame, of so many particles: twice as many as in the last one and
     /// 4,096 more, unless it is all of them.
@@ -36,36 +37,13 @@ public:
     std::uint64_t changed() const { return changed_; }
 
 private:
-    /// A cluster that is reached, and where its members are in `members_`.
-    struct Reached {
-        ClusterSlot slot;
-        std::uint32_t first, count;
-        std::uint32_t changed = 0;
-    };
-
-    /// What was last measured of a cluster. It holds for one formed anew where it was, of the same members.
-    struct Measured {
-        Vector3d acceleration{0, 0, 0};
-        Symmetric3 tide{};
-        Vector3d turning{0, 0, 0};
-        double variance = 0;
-    };
-
-    static Measured measured(const ClusterTable& clusters, std::size_t slot);
-    static void write(ClusterTable& clusters, std::size_t slot, const Measured& measured);
-    void find(const UpdateContext& context);
+    bool may_be_too_fast(const UpdateContext& context, std::size_t slot) const;
     bool kick(Particle& particle, std::uint64_t frame, double step) const;
-    void gather(ClusterTable& clusters);
 
     double limit_;    ///< infinite without one
     double strength_; ///< 0 without
     std::uint64_t seed_;
-    std::vector<std::uint8_t> marks_;
-    std::vector<Reached> reached_; ///< in order of slots
-    std::vector<Particle> members_;
-    std::vector<ClusterSlot> ending_;
-    std::vector<Measured> measured_; ///< by group
-    Grouping grouping_;
+    Remaking remaking_;
     std::uint64_t changed_ = 0;
 };
 

@@ -1,0 +1,98 @@
+#include "effects/remaking.hpp"
+
+#include "core/make_room.hpp"
+
+namespace slod {
+
+void Remaking::reserve(const ClusterTable& clusters, std::size_t member_count)
+{
+    const std::size_t slots = clusters.slot_capacity();
+    make_room(members_, member_count);
+    marks_.reserve(slots);
+    mapped_.reserve(slots);
+    ending_.reserve(slots);
+    measured_.reserve(slots);
+    grouping_.reserve(member_count, slots, slots);
+}
+
+/// Begins anew with the clusters that are marked, and room for their members.
+void Remaking::list_marked(const ClusterTable& clusters)
+{
+    mapped_.clear();
+    ending_.clear();
+    measured_.clear();
+    grouping_.clear();
+    std::uint32_t total = 0;
+    for (std::uint32_t slot = 0; slot < marks_.size(); ++slot) {
+        if (marks_[slot] == 0)
+            continue;
+        mapped_.push_back({.slot = {slot}, .first = total, .count = clusters.count[slot]});
+        total += clusters.count[slot];
+    }
+    members_.resize(total);
+}
+
+Remaking::Measured Remaking::measured(const ClusterTable& clusters, std::size_t slot)
+{
+    Measured measured;
+    if (clusters.columns.acceleration)
+        measured.acceleration = clusters.acceleration[slot];
+    if (clusters.columns.tide)
+        measured.tide = clusters.tide[slot];
+    if (clusters.columns.turning)
+        measured.turning = clusters.turning[slot];
+    if (clusters.columns.variance())
+        measured.variance = clusters.variance[slot];
+    return measured;
+}
+
+void Remaking::write(ClusterTable& clusters, std::size_t slot, const Measured& measured)
+{
+    if (clusters.columns.acceleration)
+        clusters.acceleration[slot] = measured.acceleration;
+    if (clusters.columns.tide)
+        clusters.tide[slot] = measured.tide;
+    if (clusters.columns.turning)
+        clusters.turning[slot] = measured.turning;
+    if (clusters.columns.variance())
+        clusters.variance[slot] = measured.variance;
+}
+
+void Remaking::remake(const Mapped& mapped, const UpdateContext& context)
+{
+    const ClusterTable& clusters = context.store.clusters;
+    const std::size_t slot = mapped.slot.index;
+    ending_.push_back(mapped.slot);
+    const auto first = std::uint32_t(grouping_.particles.size());
+    const float pull = clusters.columns.acceleration ? float(clusters.pull[slot]) : 0;
+    for (const Particle& member : members_of(mapped)) {
+        if (member.expiry_frame <= context.frame)
+            continue;
+        grouping_.particles.push_back(member);
+        grouping_.place.push_back(member.position);
+        grouping_.pull.push_back(pull);
+    }
+    const auto count = std::uint32_t(grouping_.particles.size()) - first;
+    if (count == 0)
+        return;
+    measured_.push_back(measured(clusters, slot));
+    grouping_.groups.push_back({.pool = {clusters.region[slot], clusters.pool[slot]},
+                                .first = first,
+                                .count = count,
+                                .clusters = 1,
+                                .spare_rows = clusters.slab[slot].capacity - mapped.count});
+}
+
+void Remaking::form(SlodTree& tree, const UpdateContext& context)
+{
+    if (ending_.empty())
+        return;
+    ClusterTable& clusters = context.store.clusters;
+    end_clusters(tree, ending_, context);
+    form_groups_in_order(grouping_, context);
+    for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
+        write(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
+    link_where_they_are(tree, grouping_, context);
+}
+
+} // namespace slod
