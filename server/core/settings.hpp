@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -19,6 +20,10 @@ struct Field {
     double maximum = std::numeric_limits<double>::infinity();  ///< in [minimum, maximum]
     bool infinity_allowed = false; ///< a number may be inf ("unlimited"); NaN never
 };
+
+/// A setting that is a list of pairs of numbers, [[a, b], ...] in the scene file; a field's range holds for
+/// each.
+using NumberPairs = std::vector<std::array<double, 2>>;
 
 /// Sentences that say what is wrong, the key first; empty when nothing is.
 using Problems = std::vector<std::string>;

@@ -12,36 +12,53 @@
 
 namespace slod {
 
-Emitter::Emitter(const EmitterSettings& settings, std::uint32_t index, std::uint8_t kind, std::uint64_t seed)
-    : settings_(settings), index_(index), kind_(kind), seed_(seed),
-      axis_(settings.direction.stableNormalized()),
-      cone_cosine_(portable_sincos(settings.cone_angle_deg * std::numbers::pi / 180).cosine)
+namespace {
+
+EmitterAxes axes_along(const Vector3d& direction)
 {
+    EmitterAxes axes;
+    axes.forward = direction.stableNormalized();
     int flattest = 0;
-    axis_.cwiseAbs().minCoeff(&flattest);
-    side_ = axis_.cross(Vector3d(Vector3d::Unit(flattest))).normalized();
-    other_side_ = axis_.cross(side_);
+    axes.forward.cwiseAbs().minCoeff(&flattest);
+    axes.side = axes.forward.cross(Vector3d(Vector3d::Unit(flattest))).normalized();
+    axes.other_side = axes.forward.cross(axes.side);
+    return axes;
+}
+
+} // namespace
+
+Emitter::Emitter(const EmitterSettings& settings, std::uint32_t index, std::uint8_t kind, std::uint64_t seed)
+    : settings_(settings), starts_(settings), index_(index), kind_(kind), seed_(seed),
+      axes_(axes_along(settings.direction)), draw_offset_(kind_of(settings.shape).draw),
+      cone_cosine_(portable_sincos(settings.cone_angle_deg * std::numbers::pi / 180).cosine)
+{}
+
+/// Time since the start, until the stop.
+double Emitter::since_start(double time) const
+{
+    return std::max(std::min(time, settings_.stop) - settings_.start, 0.0);
 }
 
 std::uint64_t Emitter::count_before(double time) const
 {
-    const double running = std::min(time, settings_.stop) - settings_.start;
-    return running > 0 ? std::uint64_t(std::ceil(running * settings_.rate)) : 0;
+    return starts_.count_before(since_start(time));
 }
 
 std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformFields& fields, std::uint64_t room,
                             std::vector<Newborn>& newborns, const Colliders* colliders, const Air* air) const
 {
-    const double end = double(frame) * step;
-    const std::uint64_t first = count_before(double(frame - 1) * step);
+    const double begin = double(frame - 1) * step, end = double(frame) * step;
+    const std::uint64_t first = count_before(begin);
     const std::uint64_t started = count_before(end) - first;
     const std::uint64_t count = std::min(started, room);
+    const auto window = starts_.window(since_start(begin), since_start(end));
     const std::size_t before = newborns.size();
     newborns.resize(before + count);
-    for_each_block(count, 1024, [&](std::size_t begin, std::size_t last) {
-        for (std::size_t i = begin; i < last; ++i) {
+    for_each_block(count, 1024, [&](std::size_t from, std::size_t last) {
+        for (std::size_t i = from; i < last; ++i) {
             Newborn& born = newborns[before + i];
-            born = newborn(first + i, end, step);
+            const std::uint64_t k = first + i;
+            born = newborn(k, settings_.start + starts_.time_of(k, window), end, step);
             Vector3d& position = born.particle.position;
             Vector3d& velocity = born.particle.velocity;
             const UniformFields felt =
@@ -57,13 +74,14 @@ std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformField
 }
 
 /// As it is at its birth.
-Newborn Emitter::newborn(std::uint64_t k, double end, double step) const
+Newborn Emitter::newborn(std::uint64_t k, double start, double end, double step) const
 {
-    const double start = settings_.start + double(k) / settings_.rate;
+    Random random(seed_, index_, k);
     Newborn born;
     born.age = std::max(end - start, 0.0);
-    born.particle.position = settings_.position;
-    born.particle.velocity = velocity_at_birth(k);
+    born.particle.velocity = velocity_at_birth(random);
+    born.particle.position = settings_.position + start * settings_.velocity;
+    born.particle.position += draw_offset_(settings_, axes_, random);
     born.particle.id = (std::uint64_t{index_} + 1) << id_shift | k;
     born.particle.mass = float(settings_.particle_mass);
     born.particle.kind = kind_;
@@ -73,14 +91,15 @@ Newborn Emitter::newborn(std::uint64_t k, double end, double step) const
     return born;
 }
 
-Vector3d Emitter::velocity_at_birth(std::uint64_t k) const
+Vector3d Emitter::velocity_at_birth(Random& random) const
 {
-    Random random(seed_, index_, k);
     const double cosine = 1 - random.uniform() * (1 - cone_cosine_);
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
     const auto turn = portable_sincos(2 * std::numbers::pi * random.uniform());
     const double speed = settings_.speed * (1 + settings_.speed_spread * (2 * random.uniform() - 1));
-    return speed * (cosine * axis_ + sine * (turn.cosine * side_ + turn.sine * other_side_));
+    return speed *
+               (cosine * axes_.forward + sine * (turn.cosine * axes_.side + turn.sine * axes_.other_side)) +
+           settings_.inherit * settings_.velocity;
 }
 
 } // namespace slod

@@ -6,7 +6,9 @@
 #include "cluster/particles.hpp"
 #include "effects/air.hpp"
 #include "effects/colliders.hpp"
-#include "effects/settings.hpp"
+#include "effects/emitter_settings.hpp"
+#include "effects/emitter_shape.hpp"
+#include "effects/start_times.hpp"
 #include "effects/uniform_fields.hpp"
 
 namespace slod {
@@ -17,14 +19,14 @@ struct Newborn {
     double age = 0;
 };
 
-/// One emitter. Particle k starts at start + k / rate exactly, whatever the frames; everything about it
-/// depends on the seed, the emitter and k alone.
+/// One emitter. When particle k starts does not depend on the frames; everything about it depends on the
+/// seed, the emitter and k alone.
 class Emitter {
 public:
     /// `index` is the emitter's place in the scene, `kind` that of its particles' kind.
     Emitter(const EmitterSettings& settings, std::uint32_t index, std::uint8_t kind, std::uint64_t seed);
 
-    /// Particles started before `time`.
+    /// Particles started before `time`, which is the scene's.
     std::uint64_t count_before(double time) const;
 
     /// Appends the particles that start in frame `frame` (of length `step`, ending at frame * step), moved
@@ -39,16 +41,20 @@ public:
 
     /// Ids of emitted particles have the emitter's place plus one above this bit, and k below it.
     static constexpr int id_shift = 48;
+    static_assert(StartTimes::most == std::uint64_t{1} << id_shift);
 
 private:
-    Newborn newborn(std::uint64_t k, double end, double step) const;
-    Vector3d velocity_at_birth(std::uint64_t k) const;
+    double since_start(double time) const;
+    Newborn newborn(std::uint64_t k, double start, double end, double step) const;
+    Vector3d velocity_at_birth(Random& random) const;
 
     EmitterSettings settings_;
+    StartTimes starts_;
     std::uint32_t index_;
     std::uint8_t kind_;
     std::uint64_t seed_;
-    Vector3d axis_, side_, other_side_; ///< orthonormal
+    EmitterAxes axes_;
+    EmitterShapeKind::Draw draw_offset_;
     double cone_cosine_;
 };
 

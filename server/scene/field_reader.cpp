@@ -73,4 +73,26 @@ Complaint assign(Vector3d& target, const Field& field, const toml::node& node)
     return {};
 }
 
+Complaint assign(NumberPairs& target, const Field& field, const toml::node& node)
+{
+    const std::string remedy = "is no list of pairs; write [[a, b], [c, d]], with numbers.";
+    const auto* list = node.as_array();
+    if (list == nullptr)
+        return remedy;
+    NumberPairs pairs;
+    for (const toml::node& element : *list) {
+        const auto* pair = element.as_array();
+        if (pair == nullptr || pair->size() != 2)
+            return remedy;
+        const auto first = number(*pair->get(0)), second = number(*pair->get(1));
+        if (!first || !second)
+            return remedy;
+        if (!in_range(field, *first) || !in_range(field, *second))
+            return "is out of range; use " + range_text(range_of<double>(field), false) + " for each number.";
+        pairs.push_back({*first, *second});
+    }
+    target = pairs;
+    return {};
+}
+
 } // namespace slod

@@ -20,6 +20,7 @@ Complaint assign(bool& target, const Field& field, const toml::node& node);
 Complaint assign(double& target, const Field& field, const toml::node& node);
 Complaint assign(std::string& target, const Field& field, const toml::node& node);
 Complaint assign(Vector3d& target, const Field& field, const toml::node& node);
+Complaint assign(NumberPairs& target, const Field& field, const toml::node& node);
 
 template <std::integral T>
 Complaint assign(T& target, const Field& field, const toml::node& node)

@@ -32,6 +32,14 @@ std::string float_text(double value)
     return text;
 }
 
+std::string pairs_text(const NumberPairs& pairs)
+{
+    std::vector<std::string> texts;
+    for (const auto& [first, second] : pairs)
+        texts.push_back("[" + float_text(first) + ", " + float_text(second) + "]");
+    return "[" + joined(texts) + "]";
+}
+
 std::string range_text(const Range& range, bool infinity_allowed)
 {
     // Whole numbers without an exponent, as TOML wants its integers.

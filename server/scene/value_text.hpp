@@ -53,6 +53,9 @@ Range range_of(const Field& field)
 /// "1 to 64", "at least 0, or inf", "any".
 std::string range_text(const Range& range, bool infinity_allowed);
 
+/// "[[1.0, 2.0], [3.0, 4.0]]".
+std::string pairs_text(const NumberPairs& pairs);
+
 /// A setting's value in TOML.
 template <class T>
 std::string value_text(const T& value)
@@ -65,6 +68,8 @@ std::string value_text(const T& value)
         return std::to_string(value);
     else if constexpr (std::is_same_v<T, double>)
         return float_text(value);
+    else if constexpr (std::is_same_v<T, NumberPairs>)
+        return pairs_text(value);
     else if constexpr (std::is_same_v<T, Vector3d>)
         return "[" + float_text(value.x()) + ", " + float_text(value.y()) + ", " + float_text(value.z()) +
                "]";
@@ -86,6 +91,8 @@ std::string choice_text(const Field& field)
         return std::isfinite(field.minimum) || std::isfinite(field.maximum)
                    ? "3 numbers, each " + range_text(range_of<double>(field), false)
                    : "3 numbers";
+    else if constexpr (std::is_same_v<T, NumberPairs>)
+        return "pairs of numbers, each " + range_text(range_of<double>(field), false);
     else
         return "text";
 }

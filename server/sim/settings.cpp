@@ -80,6 +80,8 @@ void check_emitter(const std::string& key, const EmitterSettings& emitter,
     if (emitter.stop <= emitter.start)
         found.push_back(key + ".stop = " + number_text(emitter.stop) + " is not after " + key + ".start = " +
                         number_text(emitter.start) + "; use more than that, or leave the emitter out.");
+    for (const std::string& problem : problems(emitter))
+        found.push_back(key + "." + problem);
 }
 
 void check_colliders(const std::vector<ColliderSettings>& colliders, Problems& found)

@@ -10,6 +10,7 @@
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
 #include "effects/collider_settings.hpp"
+#include "effects/emitter_settings.hpp"
 #include "effects/fields/list.hpp"
 #include "effects/member_settings.hpp"
 #include "effects/quadratic_drag.hpp"

@@ -98,6 +98,47 @@ TEST(SimulationSettings, F25_RefuseADegenerateCollider)
     EXPECT_TRUE(one_says(problems(settings), {"collider appears 257 times; use at most 256."}));
 }
 
+TEST(SimulationSettings, RefuseKeysThatAnEmittersShapeDoesNotHave)
+{
+    const auto says = [](EmitterSettings emitter, const std::string& start) {
+        SimulationSettings settings = sound();
+        emitter.name = "b";
+        emitter.kind = "dust";
+        settings.emitters[1] = emitter;
+        return only_says(problems(settings), {"emitter.1." + start});
+    };
+    using enum EmitterShape;
+    EXPECT_TRUE(says({.radius = 1}, "radius is no key of shape = \"point\"; leave it out"));
+    EXPECT_TRUE(says({.fill = Fill::Surface}, "fill is no key of shape = \"point\""));
+    EXPECT_TRUE(says({.shape = Disc, .radius = 1, .half_extent = {0, 1, 0}}, "half_extent is no key"));
+    EXPECT_TRUE(says({.shape = Ring, .radius = 2, .inner_radius = 1}, "inner_radius is no key"));
+    EXPECT_TRUE(says({.shape = Box, .radius = 1, .half_extent = {1, 1, 1}}, "radius is no key"));
+    EXPECT_TRUE(says({.shape = Ring}, "radius = 0 is that of a point"));
+    EXPECT_TRUE(says({.shape = Disc, .radius = 1, .inner_radius = 1}, "inner_radius = 1 leaves nothing"));
+    EXPECT_TRUE(says({.shape = Sphere, .radius = 2, .inner_radius = 1, .fill = Fill::Surface},
+                     "inner_radius is no key of a surface"));
+    EXPECT_TRUE(says({.shape = Box}, "half_extent = [0, 0, 0] is that of a point"));
+    EXPECT_TRUE(says({.shape = Box, .half_extent = {0, 1, 0}, .fill = Fill::Surface},
+                     "half_extent leaves a box without a surface"));
+}
+
+TEST(SimulationSettings, RefuseWhatSaysNotHowManyAnEmitterThrowsOut)
+{
+    SimulationSettings settings = sound();
+    settings.emitters[0].schedule = {{0, 5}, {1, 6}};
+    EXPECT_TRUE(problems(settings).empty());
+    settings.emitters[0].rate = 7;
+    EXPECT_TRUE(only_says(problems(settings), {"emitter.0.rate = 7 is given beside a schedule"}));
+    settings.emitters[0].rate = 0;
+    settings.emitters[0].schedule[1] = {0, 6};
+    EXPECT_TRUE(only_says(problems(settings), {"emitter.0.schedule has the time 0 after 0"}));
+    settings.emitters[0].schedule.clear();
+    settings.emitters[0].burst_period = 2;
+    EXPECT_TRUE(only_says(problems(settings), {"emitter.0.burst_period = 2 is given without a burst"}));
+    settings.emitters[0].burst = 3;
+    EXPECT_TRUE(problems(settings).empty());
+}
+
 TEST(SimulationSettings, RefuseAnEmitterOfAnUnknownKind)
 {
     SimulationSettings settings = sound();

@@ -167,6 +167,22 @@ TEST(SceneReader, InfinityIsTakenWhereAllowed)
     EXPECT_EQ(scene.simulation.emitters.at(0).lifetime, std::numeric_limits<double>::infinity());
 }
 
+TEST(SceneReader, AScheduleIsAListOfPairsOfNumbers)
+{
+    const std::string emitter = minimal_scene + "[[emitter]]\nname = \"e\"\nkind = \"star\"\n";
+    const Scene scene = scene_of(emitter + "schedule = [[0, 5], [1.5, 2e3],]\n");
+    EXPECT_EQ(scene.simulation.emitters.at(0).schedule, (NumberPairs{{0, 5}, {1.5, 2000}}));
+    EXPECT_TRUE(scene_of(emitter + "schedule = []\n").simulation.emitters.at(0).schedule.empty());
+    for (const std::string wrong : {"5", "[0, 5]", "[[0]]", "[[0, 5, 6]]", "[[0, 'a']]", "[{a = 1}]"})
+        EXPECT_TRUE(only_says(problems_of(emitter + "schedule = " + wrong + "\n"),
+                              {"emitter.0.schedule = ", "is no list of pairs"}))
+            << wrong;
+    for (const std::string beyond : {"[[-1, 5]]", "[[0, 1e13]]", "[[0, inf]]", "[[nan, 0]]"})
+        EXPECT_TRUE(only_says(problems_of(emitter + "schedule = " + beyond + "\n"),
+                              {"emitter.0.schedule = ", "is out of range; use 0 to 1000000000000 for each"}))
+            << beyond;
+}
+
 TEST(SceneReader, ReportsAllProblemsTogether)
 {
     const Problems found = problems_of("sead = 1\n"

@@ -26,7 +26,12 @@ std::string bits_of(const T& value)
         return std::to_string(std::bit_cast<std::uint64_t>(value));
     else if constexpr (std::is_same_v<T, Vector3d>)
         return bits_of(value.x()) + " " + bits_of(value.y()) + " " + bits_of(value.z());
-    else
+    else if constexpr (std::is_same_v<T, NumberPairs>) {
+        std::string all;
+        for (const auto& [first, second] : value)
+            all += bits_of(first) + " " + bits_of(second) + " ";
+        return all;
+    } else
         return std::to_string(std::uint64_t(value));
 }
 
@@ -80,6 +85,13 @@ public:
         for (double& component : value)
             component = number_in(range_of<double>(field));
     }
+    void operator()(const Field& field, NumberPairs& value)
+    {
+        const Range range = range_of<double>(field);
+        value.clear();
+        for (std::uint32_t length = below(4); length > 0; --length)
+            value.push_back({number_in(range), number_in(range)});
+    }
     template <std::integral T>
     void operator()(const Field& field, T& value)
     {
@@ -119,6 +131,27 @@ void put_in_order(double& least, double& most)
         most = std::numeric_limits<double>::infinity();
 }
 
+/// Makes an emitter of random values one that makes sense, of its shape.
+void mend(EmitterSettings& emitter)
+{
+    const double size = emitter.radius + 1;
+    const bool round = emitter.shape != EmitterShape::Point && emitter.shape != EmitterShape::Box;
+    emitter.radius = round ? size : 0;
+    emitter.inner_radius = emitter.shape == EmitterShape::Disc ? 0.5 * size : 0;
+    emitter.half_extent = emitter.shape == EmitterShape::Box ? Vector3d(size, 1, 0.1) : Vector3d(0, -0.0, 0);
+    if (emitter.shape != EmitterShape::Box && emitter.shape != EmitterShape::Sphere)
+        emitter.fill = Fill::Volume;
+    std::sort(emitter.schedule.begin(), emitter.schedule.end());
+    const auto same_time = [](const auto& a, const auto& b) { return a.front() == b.front(); };
+    emitter.schedule.erase(std::unique(emitter.schedule.begin(), emitter.schedule.end(), same_time),
+                           emitter.schedule.end());
+    if (!emitter.schedule.empty())
+        emitter.rate = 0;
+    ++emitter.burst;
+    emitter.direction = {-0.0, -0.0, 1};
+    put_in_order(emitter.start, emitter.stop);
+}
+
 /// A scene of random values that has no problems.
 Scene random_scene(std::uint64_t seed)
 {
@@ -145,9 +178,7 @@ Scene random_scene(std::uint64_t seed)
         simulation.units.length_m = 1e30; // with the largest of the other units it is 7e19
     for (EmitterSettings& emitter : simulation.emitters) {
         emitter.kind = simulation.kinds[scrambler.below(3)].name;
-        emitter.direction.z() = 1;
-        emitter.direction.x() = emitter.direction.y() = -0.0;
-        put_in_order(emitter.start, emitter.stop);
+        mend(emitter);
     }
     for (ColliderSettings& collider : simulation.colliders) {
         collider.normal = {0, -0.0, 1};
