@@ -77,6 +77,7 @@ std::string report(const ReportedRun& run)
          {{"start", conserved_json(summary.conserved_start)},
           {"end", conserved_json(summary.conserved_end)}}},
         {"unanswered_force", vector_json(summary.unanswered_force)},
+        {"drained", {{"mass", summary.drained.mass}, {"momentum", vector_json(summary.drained.momentum)}}},
         {"counts", counts_json(summary.events)},
         {"settings", settings_json(run.scene)},
     };

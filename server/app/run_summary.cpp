@@ -25,6 +25,7 @@ void RunSummary::add(const Snapshot& snapshot, double work_ms)
         phase_ms[phase].add(snapshot.profile.milliseconds[phase]);
 
     add_events(events, snapshot.counts);
+    drained += snapshot.drained;
 }
 
 Drift drift(const ConservedQuantities& start, const ConservedQuantities& end)

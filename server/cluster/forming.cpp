@@ -228,6 +228,31 @@ void map_out(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame
     SLOD_ASSERT(particle == out.end());
 }
 
+ClusterPast past_of(const ClusterTable& clusters, std::size_t slot)
+{
+    return {.formation = clusters.formation[slot],
+            .position = clusters.position[slot],
+            .mean = means(clusters, slot),
+            .map = clusters.columns.map ? clusters.map[slot] : FlowMap{}};
+}
+
+void map_out_past(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame,
+                  const ClusterPast& past, std::span<Vector3d> places)
+{
+    const ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    SLOD_ASSERT(places.size() == clusters.count[slot] && past.formation == clusters.formation[slot] &&
+                frame > clusters.formed_frame[slot]);
+    const MapBlocks map = store.rule.blocks(frame - 1 - clusters.formed_frame[slot], &past.map);
+    const FormedOffset* offsets = store.members.offsets(clusters.slab[slot]);
+    const std::uint32_t* expiries = store.members.expiries(clusters.slab[slot]);
+    auto place = places.begin();
+    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row)
+        if (expiries == nullptr || expiries[row] > frame)
+            *place++ = past.position + map.forward(relative_to(offsets[row], past.mean)).position;
+    SLOD_ASSERT(place == places.end());
+}
+
 bool takes_members(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame)
 {
     const ClusterTable& clusters = store.clusters;

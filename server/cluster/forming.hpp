@@ -36,6 +36,21 @@ void form_cluster(ClusterStore& store, ClusterSlot slot, std::span<Particle> par
 /// them. Order as stored.
 void map_out(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, std::span<Particle> out);
 
+/// Where a cluster was at the end of an earlier frame of its life, for its members' places then.
+struct ClusterPast {
+    std::uint64_t formation = 0; ///< which cluster
+    Vector3d position{0, 0, 0};
+    MapBlocks::Offset mean; ///< what its map was applied about
+    FlowMap map;            ///< where it has one of its own
+};
+
+ClusterPast past_of(const ClusterTable& clusters, std::size_t slot);
+
+/// Writes where those of the cluster's members that are alive at the end of frame `frame` were at the end of
+/// the one before, in the order of map_out(). `past` is of then.
+void map_out_past(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, const ClusterPast& past,
+                  std::span<Vector3d> places);
+
 /// Whether a particle may join: the slab has a free row, and drag has not shrunk the map so far that its
 /// inverse would magnify the rounding of an offset more than 16 times.
 bool takes_members(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame);

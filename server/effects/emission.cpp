@@ -34,9 +34,9 @@ bool by_first_particle(const SlodTree& tree, const ClusterTable& clusters, std::
 } // namespace
 
 Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life,
-                   const Colliders* colliders, const Air* air)
+                   const Colliders* colliders, const Air* air, const Sinks* sinks)
     : emitters_(std::move(emitters)), fields_(fields), mid_life_(mid_life), colliders_(colliders), air_(air),
-      cohorts_(emitters_.size())
+      sinks_(sinks), cohorts_(emitters_.size())
 {}
 
 Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, bool kicked,
@@ -48,6 +48,9 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
         newborns_.clear();
         births.refused += emitters_[emitter].emit(context.frame, context.step, fields_, room - births.born,
                                                   newborns_, colliders_, air_);
+        if (sinks_ != nullptr)
+            std::erase_if(newborns_,
+                          [&](const Newborn& born) { return sinks_->hold(born.particle.position); });
         births.born += newborns_.size();
         const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
         if (joined < newborns_.size())

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "effects/emitter.hpp"
+#include "effects/sinks.hpp"
 #include "tree/grouping.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -16,10 +17,10 @@ namespace slod {
 /// velocity (O'Brien et al. 2001, section 5.1).
 class Emission {
 public:
-    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped. `colliders` and
-    /// `air` (null: there are none) are the caller's and outlive this.
+    /// `mid_life` is the time ahead at which particles without a finite lifetime are grouped. `colliders`,
+    /// `air` and `sinks` (null: there are none) are the caller's and outlive this.
     Emission(std::vector<Emitter> emitters, const UniformFields& fields, double mid_life,
-             const Colliders* colliders = nullptr, const Air* air = nullptr);
+             const Colliders* colliders = nullptr, const Air* air = nullptr, const Sinks* sinks = nullptr);
 
     /// Newborns fly through other fields from here on.
     void set_fields(const UniformFields& fields) { fields_ = fields; }
@@ -35,8 +36,9 @@ public:
         std::uint64_t refused = 0; ///< there was no room for
     };
 
-    /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused. With
-    /// `kicked`, particles that join a cohort get its acceleration for their own time only.
+    /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused, and
+    /// those left out that are in a sink at its end. With `kicked`, particles that join a cohort get its
+    /// acceleration for their own time only.
     Births update(SlodTree& tree, const UpdateContext& context, bool kicked, std::uint64_t room);
 
     const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
@@ -56,6 +58,7 @@ private:
     double mid_life_;
     const Colliders* colliders_;
     const Air* air_;
+    const Sinks* sinks_;
     std::vector<ClusterId> cohorts_; ///< by emitter
     std::vector<Newborn> newborns_;
     std::vector<NewCluster> new_clusters_;

@@ -70,7 +70,8 @@ public:
     void form(SlodTree& tree, const UpdateContext& context);
 
 private:
-    /// What was last measured of a cluster. It holds for one formed anew where it was, of its members.
+    /// What was last measured of a cluster. Until the next time it stands for one formed anew where it was,
+    /// of its members or those that are left.
     struct Measured {
         Vector3d acceleration{0, 0, 0};
         Symmetric3 tide{};

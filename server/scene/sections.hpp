@@ -55,6 +55,7 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
           simulation.brownian);
     visit(Section{"collider", "Solids that particles bounce off."}, simulation.colliders);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
+    visit(Section{"sink", "Parts of space in which particles die."}, simulation.sinks);
     visit(Section{"limits", "What the scene may grow to."}, simulation.limits);
 }
 

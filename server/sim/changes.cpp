@@ -138,6 +138,7 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("linear_drag", wanted.linear_drag == present.linear_drag);
     fixed("collider", wanted.colliders == present.colliders);
     fixed("emitter", wanted.emitters == present.emitters);
+    fixed("sink", wanted.sinks == present.sinks);
     fixed("limits", wanted.limits == present.limits);
     fixed("background", wanted.background == present.background);
     fixed("sharing", wanted.sharing == present.sharing);

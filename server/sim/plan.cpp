@@ -74,7 +74,7 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::Commands, true);
     runs(Phase::OpenKick, kicked);
     runs(Phase::Propagate, true);
-    runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives);
+    runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives || !settings.sinks.empty());
     runs(Phase::Update, kicked || plan.local_air || !plan.unclustered || !settings.regions.empty());
     runs(Phase::Moments, settings.gravity.has_value() || plan.clocked);
     runs(Phase::Forces, kicked);
@@ -135,6 +135,7 @@ void list_effects(Plan& plan, const SimulationSettings& settings)
     plan.effects.push_back({"collider", !settings.colliders.empty(), "per member"});
     plan.effects.push_back({"emitter", !settings.emitters.empty(), "births"});
     plan.effects.push_back({"lifetime", plan.finite_lives, "deaths"});
+    plan.effects.push_back({"sink", !settings.sinks.empty(), "per member"});
 }
 
 } // namespace

@@ -84,6 +84,17 @@ void check_emitter(const std::string& key, const EmitterSettings& emitter,
         found.push_back(key + "." + problem);
 }
 
+void check_sinks(const std::vector<SinkSettings>& sinks, Problems& found)
+{
+    check_names("sink", sinks, found);
+    if (sinks.size() > max_sinks)
+        found.push_back("sink appears " + std::to_string(sinks.size()) + " times; use at most " +
+                        std::to_string(max_sinks) + ".");
+    for (std::size_t i = 0; i < sinks.size(); ++i)
+        for (const std::string& problem : problems(sinks[i]))
+            found.push_back("sink." + std::to_string(i) + "." + problem);
+}
+
 void check_colliders(const std::vector<ColliderSettings>& colliders, Problems& found)
 {
     check_names("collider", colliders, found);
@@ -205,6 +216,7 @@ Problems problems(const SimulationSettings& settings)
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);
+    check_sinks(settings.sinks, found);
     check_regions(settings.regions, settings.sharing, found);
     check_lives(settings.motion, found);
     check_rigid_rules(settings.motion, found);

@@ -15,6 +15,7 @@
 #include "effects/member_settings.hpp"
 #include "effects/quadratic_drag.hpp"
 #include "effects/settings.hpp"
+#include "effects/sink_settings.hpp"
 #include "gravity/settings.hpp"
 #include "tree/region.hpp"
 #include "tree/settings.hpp"
@@ -78,6 +79,7 @@ struct SimulationSettings {
     std::optional<BrownianSettings> brownian;
     std::vector<ColliderSettings> colliders;
     std::vector<EmitterSettings> emitters;
+    std::vector<SinkSettings> sinks;
     LimitSettings limits;
 };
 

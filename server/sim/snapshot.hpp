@@ -9,6 +9,7 @@
 #include "core/ids.hpp"
 #include "core/vectors.hpp"
 #include "effects/collisions.hpp"
+#include "effects/draining.hpp"
 #include "effects/fields/field_set.hpp"
 #include "sim/phase.hpp"
 #include "tree/slod_tree.hpp"
@@ -23,6 +24,7 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t born = 0;
     std::uint64_t births_refused = 0; ///< there are as many particles as the scene may have
     std::uint64_t died = 0;
+    std::uint64_t killed = 0;       ///< of those that died: by sinks
     std::uint64_t kicked = 0;       ///< particles whose velocity was changed by itself
     std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
     std::uint64_t far_nodes = 0;    ///< that act on many clusters at once, by an expansion
@@ -39,10 +41,11 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 25> event_counts{{
+inline constexpr std::array<EventCount, 26> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
+    {"killed", &FrameCounts::killed},
     {"struck", &FrameCounts::struck},
     {"taken_apart", &FrameCounts::taken_apart},
     {"impacts", &FrameCounts::impacts},
@@ -128,6 +131,7 @@ struct Snapshot {
     /// Potential energy of all particles in the effects of place that have one, where conserved quantities
     /// were asked for.
     double field_energy = 0;
+    Drained drained;                 ///< what sinks took in this frame
     StepProfile profile;             ///< of this frame
     std::vector<RegionLoad> regions; ///< in order of precedence, the background last
     Detail detail;                   ///< that the frame was run at

@@ -81,6 +81,11 @@ std::optional<Collisions> collisions_of(const SimulationSettings& settings, cons
     return Collisions(settings.colliders, fields, settings.time.step, rules, air);
 }
 
+std::optional<Draining> draining_of(const SimulationSettings& settings)
+{
+    return settings.sinks.empty() ? std::nullopt : std::optional<Draining>(std::in_place, settings.sinks);
+}
+
 std::optional<Air> air_of(const SimulationSettings& settings, const Plan& plan, const UniformFields& fields)
 {
     if (!plan.air)
@@ -101,8 +106,10 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(scene.motion, context()),
       air(air_of(scene, plan, fields)),
       collisions(collisions_of(scene, plan, fields, plan.local_air ? &*air : nullptr)),
+      draining(draining_of(scene)),
       emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step,
-               collisions ? &collisions->colliders() : nullptr, air ? &*air : nullptr),
+               collisions ? &collisions->colliders() : nullptr, air ? &*air : nullptr,
+               draining ? &draining->sinks() : nullptr),
       particle_count(initial.size())
 {
     if (scene.gravity)
@@ -163,7 +170,8 @@ void Simulation::State::make_room()
     const std::uint64_t moving = plan.clocked ? particle_count : particle_count / 8 + 4096;
     const std::uint64_t struck = collisions ? collisions->expected_members(particle_count) : 0;
     const std::uint64_t kicked = member_kicks ? member_kicks->expected_members(particle_count) : 0;
-    const std::uint64_t formed = moving + struck + kicked;
+    const std::uint64_t drained = draining ? draining->expected_members(particle_count) : 0;
+    const std::uint64_t formed = moving + struck + kicked + drained;
     store.members.reserve(formed + formed / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
     for (Subtree& subtree : tree.subtrees)
@@ -176,6 +184,8 @@ void Simulation::State::make_room()
         collisions->reserve(store.clusters, struck);
     if (member_kicks)
         member_kicks->reserve(store.clusters, kicked);
+    if (draining)
+        draining->reserve(store.clusters, drained);
     if (field_forces)
         field_forces->reserve(store.clusters.slot_capacity());
     if (air)
@@ -219,6 +229,8 @@ void Simulation::State::propagate()
         member_kicks->update(tree, {store, frame - 1, settings.time.step});
         snapshot.counts.kicked = member_kicks->changed();
     }
+    if (draining)
+        draining->remember(context());
     if (air && !plan.local_air)
         turn_wind();
     if (collisions)
@@ -253,6 +265,8 @@ void Simulation::State::emit()
         snapshot.counts.died += died;
         particle_count -= died;
     }
+    if (draining)
+        drain();
     const std::uint64_t room =
         settings.limits.max_particles - std::min(settings.limits.max_particles, particle_count);
     const Emission::Births births = emission.update(tree, context(), plan.has(Phase::CloseKick), room);
@@ -260,6 +274,14 @@ void Simulation::State::emit()
     snapshot.counts.births_refused = births.refused;
     particle_count += snapshot.counts.born;
     make_room(); // for the newborn
+}
+
+void Simulation::State::drain()
+{
+    snapshot.drained = draining->update(tree, context());
+    snapshot.counts.killed = snapshot.drained.killed;
+    snapshot.counts.died += snapshot.drained.killed;
+    particle_count -= snapshot.drained.killed;
 }
 
 void Simulation::State::update()

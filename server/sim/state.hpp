@@ -7,6 +7,7 @@
 #include "cluster/forming.hpp"
 #include "effects/air.hpp"
 #include "effects/collisions.hpp"
+#include "effects/draining.hpp"
 #include "effects/emission.hpp"
 #include "effects/field_forces.hpp"
 #include "effects/member_kicks.hpp"
@@ -36,6 +37,7 @@ struct Simulation::State {
     bool places_are_finite() const;
     void turn_wind(); ///< Takes this frame's wind, where that is the same everywhere
     void emit();
+    void drain();
     void update();
     void measure_moments();
     void evaluate_forces();
@@ -91,6 +93,7 @@ struct Simulation::State {
     std::optional<Air> air;                  ///< where it is more than uniform fields
     std::optional<Collisions> collisions;    ///< where there are colliders
     std::optional<MemberKicks> member_kicks; ///< where particles are changed by themselves
+    std::optional<Draining> draining;        ///< where there are sinks
     Emission emission;
     ForceView view;
     ForceLists force_lists;

@@ -118,6 +118,8 @@ const std::map<std::string, std::uint64_t> pinned{
     {"winds_among_obstacles", 0x5b8b37322ec7a48a},
     {"gusts", 0xd40bb7e00a8eedeb},
     {"kicked", 0xc6b25097140facc5},
+    {"sinks", 0x1c601cc4ba5b3753},
+    {"attracted_sink", 0x340a9a4cbec54d3c},
 };
 
 TEST_P(SameBits, AsWhenTheyWerePinned)

@@ -178,6 +178,47 @@ SmallScene kicked()
     return scene;
 }
 
+/// Emitters of every shape, in bursts and by a schedule, one of them on its way, above a floor that takes
+/// what falls on it, beside a box that does, and within a ball whose outside does.
+SmallScene sinks()
+{
+    SmallScene scene = fountain("sinks", Motion::Flow);
+    std::vector<EmitterSettings>& emitters = scene.settings.emitters;
+    emitters.push_back(jet("hail"));
+    emitters[0].shape = EmitterShape::Ring;
+    emitters[0].radius = 0.1;
+    emitters[0].burst = 50;
+    emitters[0].burst_period = 0.25;
+    emitters[1].shape = EmitterShape::Disc;
+    emitters[1].radius = 0.2;
+    emitters[1].inner_radius = 0.1;
+    emitters[1].velocity = {0, 2, 0.5};
+    emitters[1].inherit = 0.5;
+    emitters[1].rate = 0;
+    emitters[1].schedule = {{0.05, 300}, {0.2, 0}, {0.3, 1000}};
+    emitters[2].shape = EmitterShape::Sphere;
+    emitters[2].radius = 0.1;
+    emitters[2].fill = Fill::Surface;
+    emitters[3].shape = EmitterShape::Box;
+    emitters[3].position = {0, 0, 1.2};
+    emitters[3].half_extent = {0.5, 0.5, 0};
+    emitters[3].direction = {0, 0.3, -1};
+    scene.settings.sinks = {
+        {.name = "floor", .position = {0, 0, 0.2}, .normal = {0.1, 0, 1}},
+        {.name = "drain", .shape = SinkShape::Box, .position = {-1, 0, 0.7}, .half_extent = {0.2, 0.3, 0.1}},
+        {.name = "world", .shape = SinkShape::Sphere, .radius = 1.4, .outside = true}};
+    return scene;
+}
+
+/// Two clouds that attract each other about a ball that swallows what comes into it.
+SmallScene attracted_sink()
+{
+    SmallScene scene = clouds("attracted_sink", Motion::Flow, 16, 800);
+    scene.settings.sinks = {
+        {.name = "hole", .shape = SinkShape::Sphere, .position = {-1.2, 0.3, 0}, .radius = 0.4}};
+    return scene;
+}
+
 } // namespace
 
 void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
@@ -254,6 +295,8 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(winds_among_obstacles());
     scenes.push_back(gusts());
     scenes.push_back(kicked());
+    scenes.push_back(sinks());
+    scenes.push_back(attracted_sink());
     return scenes;
 }
 

@@ -20,6 +20,7 @@ Snapshot snapshot(std::uint64_t frame, double forces_ms)
     snapshot.counts.clusters = 20;
     snapshot.counts.born = 3;
     snapshot.counts.interactions = 100;
+    snapshot.drained = {.killed = 1, .mass = 0.5, .momentum = {1, 0, -2}};
     snapshot.profile[Phase::Forces] = forces_ms;
     snapshot.regions.push_back(
         {.row = 0, .clusters = 20, .particles = 1'234'567, .max_cluster_size = 23.5, .max_breadth = 1});
@@ -53,6 +54,8 @@ TEST(RunSummary, AddsUpEventsAndKeepsTheLastLevels)
     EXPECT_EQ(summary.time, 5);
     EXPECT_EQ(summary.events.born, 30U);
     EXPECT_EQ(summary.events.interactions, 1000U);
+    EXPECT_EQ(summary.drained.mass, 5);
+    EXPECT_EQ(summary.drained.momentum, Vector3d(10, 0, -20));
     EXPECT_EQ(summary.particles, 1'234'567U);
     EXPECT_EQ(summary.clusters, 20U);
 }
@@ -93,6 +96,7 @@ TEST(Report, HasThePromisedKeys)
           "/drift/momentum", "/drift/angular_momentum", "/drift/kinetic_energy", "/counts/born",
           "/counts/interactions", "/version", "/settings/time/step"})
         EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
+    EXPECT_EQ(json["drained"]["mass"], 0.5);
     EXPECT_EQ(json["scene"], "a scene");
     EXPECT_EQ(json["state_hash"], "0000000000000abc");
     EXPECT_EQ(json["counts"].size(), event_counts.size() + FieldCounts{}.size());

@@ -98,6 +98,17 @@ TEST(SimulationSettings, F25_RefuseADegenerateCollider)
     EXPECT_TRUE(one_says(problems(settings), {"collider appears 257 times; use at most 256."}));
 }
 
+TEST(SimulationSettings, RefuseADegenerateSink)
+{
+    SimulationSettings settings = sound();
+    settings.sinks = {{.name = "floor"}, {.name = "hole", .shape = SinkShape::Sphere}};
+    EXPECT_TRUE(only_says(problems(settings), {"sink.1.radius = 0 leaves a sphere without an inside"}));
+    settings.sinks[1] = {.name = "floor"};
+    EXPECT_TRUE(only_says(problems(settings), {"sink.1.name = \"floor\" is the name of sink.0 too"}));
+    settings.sinks.resize(max_sinks + 1, {.name = "more"});
+    EXPECT_TRUE(one_says(problems(settings), {"sink appears 65 times; use at most 64."}));
+}
+
 TEST(SimulationSettings, RefuseKeysThatAnEmittersShapeDoesNotHave)
 {
     const auto says = [](EmitterSettings emitter, const std::string& start) {

@@ -152,6 +152,16 @@ void mend(EmitterSettings& emitter)
     put_in_order(emitter.start, emitter.stop);
 }
 
+/// Likewise a sink.
+void mend(SinkSettings& sink)
+{
+    const double size = sink.radius + 1;
+    sink.radius = sink.shape == SinkShape::Sphere ? size : 0;
+    sink.half_extent = sink.shape == SinkShape::Box ? Vector3d(size, 1, 0.1) : Vector3d(0, -0.0, 0);
+    sink.normal = {0, 0, 1};
+    sink.outside = sink.outside && sink.shape != SinkShape::Plane;
+}
+
 /// A scene of random values that has no problems.
 Scene random_scene(std::uint64_t seed)
 {
@@ -180,6 +190,8 @@ Scene random_scene(std::uint64_t seed)
         emitter.kind = simulation.kinds[scrambler.below(3)].name;
         mend(emitter);
     }
+    for (SinkSettings& sink : simulation.sinks)
+        mend(sink);
     for (ColliderSettings& collider : simulation.colliders) {
         collider.normal = {0, -0.0, 1};
         collider.radius += 1;

@@ -95,6 +95,7 @@ TEST_P(Boundary, AParticleAloneMovesStraightOn)
     settings.fields = {};
     settings.brownian.reset();
     settings.speed_limit.reset();
+    settings.sinks.clear();
     const ParticleSet initial{{{-0.5, 3, 0.25}, {8, -4, 0}, 7, 1.5F}};
     expect_straight_on(initial, particles_after(settings, initial), frame_count * settings.time.step, 0);
 }

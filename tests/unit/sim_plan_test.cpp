@@ -30,7 +30,7 @@ Names every_effect()
     Names names{"gravity", "uniform_gravity", "linear_drag", "uniform_wind", "quadratic_drag"};
     for_each_field_table(FieldSettings{},
                          [&]<class F>(const typename F::Table&) { names.emplace_back(F::name); });
-    for (const char* name : {"speed_limit", "brownian", "collider", "emitter", "lifetime"})
+    for (const char* name : {"speed_limit", "brownian", "collider", "emitter", "lifetime", "sink"})
         names.emplace_back(name);
     return names;
 }
@@ -115,6 +115,11 @@ void swirl(SmallScene& scene)
 void obstruct(SmallScene& scene)
 {
     scene.settings.colliders = {plane({0, 0, -1}, {0, 0, 1})};
+}
+
+void sink(SmallScene& scene)
+{
+    scene.settings.sinks = {{.name = "floor"}};
 }
 
 void add_kind(SmallScene& scene)
@@ -215,6 +220,7 @@ std::vector<PlannedScene> scenes_of_particles()
          .effects = {"lifetime"},
          .member_columns = {"expiry frame"},
          .cluster_columns = {"next expiry"}},
+        {.name = "sink", .choose = sink, .phases = with_births_or_deaths, .effects = {"sink"}},
         {.name = "several_kinds", .choose = add_kind, .member_columns = {"kind"}},
         {.name = "several_masses",
          .choose = [](SmallScene& scene) { scene.initial.front().mass = 2; },
@@ -222,7 +228,8 @@ std::vector<PlannedScene> scenes_of_particles()
          .cluster_columns = {"moments by number"}},
         {.name = "massless", .choose = take_masses, .cluster_columns = {"moments by number"}},
         {.name = "everything",
-         .choose = all<attract, blow, resist, add_all_fields, shake, obstruct, emit, add_kind, take_masses>,
+         .choose =
+             all<attract, blow, resist, add_all_fields, shake, obstruct, emit, sink, add_kind, take_masses>,
          .phases = all_phases,
          .effects = all_effects,
          .map = MapKind::Full,
