@@ -1,5 +1,8 @@
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -115,6 +118,7 @@ private:
     RoughConduct rough_;
     DurationHistogram round_trip_;
     Ticker storm_due_, malformed_due_, duplicates_due_, reordered_due_, impostors_due_;
+    std::size_t turn_ = 0; ///< of rough conduct that may go first
 };
 
 void CommandingClient::begin()
@@ -142,11 +146,18 @@ void CommandingClient::act()
         if (const auto draft = storm_.next())
             send(*draft);
     });
-    act_if_due(malformed_due_, rough_.may_go_on(), [this] { rough_.send_malformed(); });
-    act_if_due(duplicates_due_, rough_.may_go_on(), [this] { rough_.send_duplicate(); });
-    act_if_due(reordered_due_, rough_.may_go_on(), [this] { rough_.send_reordered(); });
-    act_if_due(impostors_due_, rough_.may_go_on(),
-               [this] { rough_.send_as_impostor(connection_.regions()); });
+    // Few may be under way, so that whoever came first each time might leave nothing to the others.
+    const std::array<std::pair<Ticker*, std::function<void()>>, 4> conducts{{
+        {&malformed_due_, [this] { rough_.send_malformed(); }},
+        {&duplicates_due_, [this] { rough_.send_duplicate(); }},
+        {&reordered_due_, [this] { rough_.send_reordered(); }},
+        {&impostors_due_, [this] { rough_.send_as_impostor(connection_.regions()); }},
+    }};
+    ++turn_;
+    for (std::size_t i = 0; i < conducts.size(); ++i) {
+        const auto& [due, send_one] = conducts[(turn_ + i) % conducts.size()];
+        act_if_due(*due, rough_.may_go_on(), send_one);
+    }
 }
 
 void CommandingClient::send(const Draft& draft)
