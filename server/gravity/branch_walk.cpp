@@ -1,23 +1,16 @@
 #include "gravity/branch_walk.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/assert.hpp"
 
 namespace slod {
-namespace {
-
-/// Whether the node holds the targets; else it holds none of them, or is one of their parts.
-bool holds(const ForceView::Node& node, const ForceView::Node& targets)
-{
-    return targets.first - node.first < node.count; // below 0 wraps beyond any count
-}
-
-} // namespace
-
 template <class Real>
 BranchWalk<Real>::BranchWalk(const ForceTerms<Real>& terms, std::uint32_t region, ClusterTable& clusters,
                              std::size_t room)
     : terms_(terms), view_(terms.view), region_(region), clusters_(clusters),
-      far_(terms.kernels, terms.units), room_(room)
+      sieve_(view_, terms.kernels, terms.units), far_(terms.kernels, terms.units), room_(room)
 {
     static_assert(most_in_group <= BlockSum<Real>::most_targets);
     SLOD_ASSERT(view_.regions.size() <= most_roots && room <= most_listed - most_roots);
@@ -33,6 +26,7 @@ ForceCounts BranchWalk<Real>::run(std::uint32_t branch)
     const Sources answered = roots(true), unanswered = roots(false);
     end_ = listed_ + room_;
     descend(branch, {answered, unanswered});
+    counts_.nodes_tested = sieve_.tested();
     return counts_;
 }
 
@@ -71,13 +65,14 @@ typename BranchWalk<Real>::Sources BranchWalk<Real>::settle(const ForceView::Nod
 {
     const Allowance allowance = allowance_for(view_, targets, terms_.gravity, terms_.gravitational_constant,
                                               clusters_.pull, gross_pull_);
-    const bool expanding = terms_.gravity.multipoles == Multipoles::Quadrupole && allowance.relative;
-    if (!expanding || above.nodes.empty() || targets.radius == 0)
+    const auto far = far_terms(targets, terms_.gravity, allowance);
+    if (std::isnan(far.far_guard) || above.nodes.empty())
         return above;
     const std::size_t first = listed_;
     far_.begin(targets);
-    for (const std::uint32_t source : above.nodes) {
-        if (!sift(source, targets, allowance)) {
+    for (sieve_.begin(above.nodes, targets, far); sieve_.next();) {
+        add_far();
+        if (!leave(sieve_.leaves()) || !leave_smaller(sieve_.opened(), targets)) {
             listed_ = first;
             return above;
         }
@@ -87,32 +82,37 @@ typename BranchWalk<Real>::Sources BranchWalk<Real>::settle(const ForceView::Nod
             .point = targets.centre};
 }
 
-/// False if there is no room in the lists.
+/// Lists the nodes for the targets' children; false if there is no room.
 template <class Real>
-bool BranchWalk<Real>::sift(std::uint32_t source, const ForceView::Node& targets, const Allowance& allowance)
+bool BranchWalk<Real>::leave(std::span<const std::uint32_t> nodes)
 {
-    const std::uint32_t end = view_.nodes[source].next;
-    for (std::uint32_t index = source; index < end;) {
+    if (nodes.size() > end_ - listed_)
+        return false;
+    std::copy(nodes.begin(), nodes.end(), lists_.begin() + std::ptrdiff_t(listed_));
+    listed_ += nodes.size();
+    return true;
+}
+
+/// Opens those that are larger than the targets, and lists the others; false if there is no room.
+template <class Real>
+bool BranchWalk<Real>::leave_smaller(std::span<const std::uint32_t> nodes, const ForceView::Node& targets)
+{
+    for (const std::uint32_t index : nodes) {
         const ForceView::Node& node = view_.nodes[index];
-        const bool holds_targets = holds(node, targets);
-        ++counts_.nodes_tested;
-        if (!holds_targets && is_far(node, targets, allowance)) {
-            far_.add(node, view_.second_moments[index]);
-            ++counts_.far_nodes;
-            index = node.next;
-            continue;
-        }
-        const bool larger = holds_targets ? node.count > targets.count : node.radius > targets.radius;
-        if (larger && node.next > index + 1) {
-            ++index;
-            continue;
-        }
-        if (listed_ == end_)
+        if (holds(node, targets) ? node.count > targets.count : node.radius > targets.radius)
+            sieve_.open(index);
+        else if (!leave({&index, 1}))
             return false;
-        lists_[listed_++] = index;
-        index = node.next;
     }
     return true;
+}
+
+template <class Real>
+void BranchWalk<Real>::add_far()
+{
+    for (const std::uint32_t node : sieve_.far())
+        far_.add(view_.nodes[node], view_.second_moments[node]);
+    counts_.far_nodes += sieve_.far().size();
 }
 
 /// What is in `far_`, if anything, and the expansion from above, about the targets' centre.
@@ -130,9 +130,9 @@ template <class Real>
 void BranchWalk<Real>::finish(const ForceView::Node& targets, const AllSources& sources)
 {
     const double constant = terms_.gravitational_constant;
-    const Opening opening(
-        view_, targets, terms_.gravity,
-        allowance_for(view_, targets, terms_.gravity, constant, clusters_.pull, gross_pull_));
+    const Allowance allowance =
+        allowance_for(view_, targets, terms_.gravity, constant, clusters_.pull, gross_pull_);
+    const auto opening = opening_terms(view_, targets, terms_.gravity, allowance);
     BlockSum<Real> sum(view_, terms_.kernels, terms_.units, targets.first, targets.first + targets.count,
                        clusters_.columns.tide);
     add(sources.answered, targets, opening, sum);
@@ -147,47 +147,27 @@ void BranchWalk<Real>::finish(const ForceView::Node& targets, const AllSources& 
 }
 
 template <class Real>
-void BranchWalk<Real>::add(const Sources& sources, const ForceView::Node& targets, const Opening& opening,
-                           BlockSum<Real>& sum)
+void BranchWalk<Real>::add(const Sources& sources, const ForceView::Node& targets,
+                           const simd::OpeningTerms<double>& opening, BlockSum<Real>& sum)
 {
     far_.begin(targets);
-    for (const std::uint32_t source : sources.nodes)
-        walk(source, targets, opening, sum);
+    for (sieve_.begin(sources.nodes, targets, opening); sieve_.next();) {
+        add_far();
+        for (const std::uint32_t node : sieve_.extended())
+            sum.add_node(view_.nodes[node], view_.second_moments[node]);
+        for (const std::uint32_t node : sieve_.points())
+            sum.add_point(view_.nodes[node].centre, view_.nodes[node].mass, view_.nodes[node].q);
+        for (const std::uint32_t node : sieve_.leaves())
+            sum.add_bodies(view_.nodes[node].first, view_.nodes[node].first + view_.nodes[node].count);
+        for (const std::uint32_t node : sieve_.opened()) {
+            if (&view_.nodes[node] == &targets)
+                sum.add_bodies(targets.first, targets.first + targets.count);
+            else
+                sieve_.open(node);
+        }
+    }
     if (const Expansion far = moved_here(sources, targets); far.reach > 0)
         sum.add_expansion(far, targets.centre);
-}
-
-/// Depth first, without a stack, as an index that goes on or jumps.
-template <class Real>
-void BranchWalk<Real>::walk(std::uint32_t source, const ForceView::Node& targets, const Opening& opening,
-                            BlockSum<Real>& sum)
-{
-    const std::uint32_t end = view_.nodes[source].next;
-    for (std::uint32_t index = source; index < end;) {
-        const ForceView::Node& node = view_.nodes[index];
-        NodeRole role = NodeRole::Opened;
-        if (!holds(node, targets)) {
-            ++counts_.nodes_tested;
-            role = opening.role_of(node);
-        }
-        if (role == NodeRole::Opened) {
-            const bool leaf = node.next == index + 1;
-            const bool own = node.first == targets.first && node.count == targets.count;
-            if (leaf || own)
-                sum.add_bodies(node.first, node.first + node.count);
-            index = leaf || own ? node.next : index + 1;
-            continue;
-        }
-        if (role == NodeRole::Far) {
-            far_.add(node, view_.second_moments[index]);
-            ++counts_.far_nodes;
-        } else if (role == NodeRole::Extended) {
-            sum.add_node(node, view_.second_moments[index]);
-        } else {
-            sum.add_point(node.centre, node.mass, node.q);
-        }
-        index = node.next;
-    }
 }
 
 template class BranchWalk<float>;

@@ -7,6 +7,7 @@
 #include "gravity/block_sum.hpp"
 #include "gravity/far_field.hpp"
 #include "gravity/forces.hpp"
+#include "gravity/node_sieve.hpp"
 #include "gravity/opening.hpp"
 
 namespace slod {
@@ -63,12 +64,12 @@ private:
     Sources roots(bool answered);
     void descend(std::uint32_t targets, const AllSources& above);
     Sources settle(const ForceView::Node& targets, const Sources& above);
-    bool sift(std::uint32_t source, const ForceView::Node& targets, const Allowance& allowance);
+    bool leave(std::span<const std::uint32_t> nodes);
+    bool leave_smaller(std::span<const std::uint32_t> nodes, const ForceView::Node& targets);
+    void add_far();
     void finish(const ForceView::Node& targets, const AllSources& sources);
-    void add(const Sources& sources, const ForceView::Node& targets, const Opening& opening,
-             BlockSum<Real>& sum);
-    void walk(std::uint32_t source, const ForceView::Node& targets, const Opening& opening,
-              BlockSum<Real>& sum);
+    void add(const Sources& sources, const ForceView::Node& targets,
+             const simd::OpeningTerms<double>& opening, BlockSum<Real>& sum);
     Expansion moved_here(const Sources& sources, const ForceView::Node& targets);
 
     const ForceTerms<Real>& terms_;
@@ -77,6 +78,7 @@ private:
     ClusterTable& clusters_;
     double gross_pull_ = 0; ///< on the branch, over G
     ForceCounts counts_;
+    NodeSieve<Real> sieve_;
     FarField<Real> far_;
     std::array<std::uint32_t, most_listed> lists_; ///< each behind that of its targets' parent
     std::size_t listed_ = 0;

@@ -32,6 +32,13 @@ struct ForceView {
     };
     static_assert(sizeof(Node) == 64);
 
+    /// Whether the node holds the other one, or is it; else it holds none of its bodies, or is one of its
+    /// parts.
+    friend bool holds(const Node& node, const Node& other)
+    {
+        return other.first - node.first < node.count; // below 0 wraps beyond any count
+    }
+
     /// What belongs to one region of interest.
     struct Region {
         std::uint32_t first_body = 0, last_body = 0;

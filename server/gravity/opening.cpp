@@ -8,6 +8,9 @@ namespace {
 
 constexpr double least_share = 0.05; ///< of the gross pull
 
+/// Bounds that nothing keeps, and that everything does.
+constexpr double none = std::numeric_limits<double>::quiet_NaN(), any = 1e30;
+
 struct Corners {
     Vector3d lower, upper;
 };
@@ -59,17 +62,45 @@ double gross_pull(const ForceView& view, const ForceView::Node& targets, std::ui
     return sum;
 }
 
-Opening::Opening(const ForceView& view, const ForceView::Node& targets, const GravitySettings& gravity,
-                 const Allowance& allowance)
-    : targets_(targets), allowance_(allowance),
-      angle_squared_(std::min(gravity.opening_angle, opening_guard) *
-                     std::min(gravity.opening_angle, opening_guard)),
-      accepted_(gravity.multipoles == Multipoles::Quadrupole ? NodeRole::Extended : NodeRole::Point),
-      allowed_of_points_(accepted_ == NodeRole::Extended ? 0.5 * allowance.error : allowance.error)
+simd::OpeningTerms<double> far_terms(const ForceView::Node& targets, const GravitySettings& gravity,
+                                     const Allowance& allowance)
 {
+    simd::OpeningTerms<double> terms{};
+    terms.reach = double(targets.radius);
+    terms.q = targets.q;
+    terms.q_spread = double(targets.q_spread);
+    terms.guard = terms.far_guard = terms.most_blur = none;
+    terms.point_error = terms.extended_error = none;
+    terms.error = allowance.error;
+    terms.far_error = 2 * allowance.error;
+    if (gravity.multipoles == Multipoles::Quadrupole && allowance.relative && terms.reach > 0)
+        terms.far_guard = opening_guard * opening_guard;
+    return terms;
+}
+
+simd::OpeningTerms<double> opening_terms(const ForceView& view, const ForceView::Node& targets,
+                                         const GravitySettings& gravity, const Allowance& allowance)
+{
+    simd::OpeningTerms<double> terms = far_terms(targets, gravity, allowance);
     const Corners corners = corners_of(view, targets);
-    lower_ = corners.lower;
-    upper_ = corners.upper;
+    for (int axis = 0; axis < 3; ++axis) {
+        terms.lower[axis] = corners.lower[axis] - targets.centre[axis];
+        terms.upper[axis] = corners.upper[axis] - targets.centre[axis];
+    }
+    const bool extended = gravity.multipoles == Multipoles::Quadrupole;
+    if (allowance.relative) {
+        terms.guard = opening_guard * opening_guard;
+        terms.most_blur = any;
+        terms.point_error = extended ? 0.5 * allowance.error : allowance.error;
+        terms.extended_error = extended ? 4 * allowance.error : none;
+    } else {
+        const double angle = std::min(gravity.opening_angle, opening_guard);
+        terms.guard = terms.most_blur = angle * angle;
+        terms.error = any;
+        terms.point_error = extended ? none : any;
+        terms.extended_error = any;
+    }
+    return terms;
 }
 
 } // namespace slod

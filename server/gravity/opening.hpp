@@ -1,21 +1,13 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
-#include "gravity/far_field.hpp"
 #include "gravity/force_view.hpp"
-#include "gravity/target_runs.hpp"
+#include "simd/gravity_kernels.hpp"
 
 namespace slod {
 
-/// How a node acts on a group of targets.
-enum class NodeRole : std::uint8_t {
-    Opened,   ///< not at all: its parts do
-    Point,    ///< as one body
-    Extended, ///< as one body with second moments
-    Far,      ///< the same, by an expansion about the targets' middle
-};
+using simd::NodeRole;
 
 /// Error that targets allow of the pull of a single node.
 struct Allowance {
@@ -35,28 +27,18 @@ double gross_pull(const ForceView& view, const ForceView::Node& targets, std::ui
 /// Largest radius of a node that acts as one body, of its distance.
 inline constexpr double opening_guard = 0.9;
 
-/// Whether a node may act on the bodies below `targets` by an expansion about their centre: where what an
-/// expansion to the third power misses, m s^4 / (d^2 + q)^3 with s the sum of both radii, is no more than
-/// twice the allowance, and what bodies of another softening than the targets' mean miss, 3/2 m dq / (d^2 +
-/// q)^2, within it. Plummer sphere of 100,000 at tolerance 0.003, for once, twice, 4 and 8 times: 78, 75, 74
-/// and 77 ms, 99 % of the errors below 4.4, 4.8, 6.6 and 8.4e-3. Targets in one place need no expansion.
-inline bool is_far(const ForceView::Node& node, const ForceView::Node& targets, const Allowance& allowance)
-{
-    const double squared = (node.centre - targets.centre).squaredNorm();
-    const double size = double(node.radius) + double(targets.radius);
-    const double square = size * size;
-    const double softened = squared + node.q + targets.q;
-    const double blur_squared = double(node.blur) * double(node.blur);
-    const double allowed = allowance.error * softened * softened;
-    return targets.radius * targets.radius > 0 && square <= opening_guard * opening_guard * squared &&
-           node.mass * square * square <= 2 * allowed * softened &&
-           node.mass * blur_squared * blur_squared <= allowed * softened &&
-           1.5 * node.mass * double(targets.q_spread) <= allowed;
-}
+/// Terms in units of the scene that name the nodes that may act on the bodies below `targets` by an expansion
+/// about their centre: where what an expansion to the third power misses, m s^4 / (d^2 + q)^3 with s the sum
+/// of both radii, is no more than twice the allowance, and what bodies of another softening than the targets'
+/// mean miss, 3/2 m dq / (d^2 + q)^2, within it. Plummer sphere of 100,000 at tolerance 0.003, for once,
+/// twice, 4 and 8 times: 78, 75, 74 and 77 ms, 99 % of the errors below 4.4, 4.8, 6.6 and 8.4e-3. Targets in
+/// one place need no expansion, and what has no second moments, or is held by an angle, knows none.
+simd::OpeningTerms<double> far_terms(const ForceView::Node& targets, const GravitySettings& gravity,
+                                     const Allowance& allowance);
 
-/// Decides for one group of targets which nodes may act on it as one body. A node of radius r whose centre is
-/// at distance d from the group's box may when r <= 0.9 d, without which a dense clump beside the centre of
-/// mass would be missed (Dehnen 2014, Computational Astrophysics and Cosmology 1, 1), and
+/// The same for all roles, of a group of targets. A node of radius r whose centre is at distance d from the
+/// group's box may act as one body when r <= 0.9 d, without which a dense clump beside the centre of mass
+/// would be missed (Dehnen 2014, Computational Astrophysics and Cosmology 1, 1), and
 ///  - geometric: r <= opening_angle d, or
 ///  - relative: G m r^2 / (d^2 + q)^2 <= force_tolerance |a|, what a monopole misses at most but for a factor
 ///    near 1 (Springel 2005, MNRAS 364, 1105; there without softening, which costs a tenth more nodes).
@@ -75,52 +57,7 @@ inline bool is_far(const ForceView::Node& node, const ForceView::Node& targets, 
 ///
 /// Measured in place of r and found worse at equal cost, by a fifth of the error in a sphere and a third in a
 /// disc: the bodies' root mean square distance, with and without a factor d^2 / (d - r)^2 for higher moments.
-class Opening {
-public:
-    Opening(const ForceView& view, const ForceView::Node& targets, const GravitySettings& gravity,
-            const Allowance& allowance);
-
-    NodeRole role_of(const ForceView::Node& node) const
-    {
-        const double squared = distance_squared(node);
-        const double radius = double(node.radius), blur = double(node.blur);
-        const double softened = squared + node.q;
-        if (!allowance_.relative)
-            return radius * radius <= angle_squared_ * squared && blur * blur <= angle_squared_ * softened
-                       ? accepted_
-                       : NodeRole::Opened;
-        if (accepted_ == NodeRole::Extended && is_far(node, targets_, allowance_))
-            return NodeRole::Far;
-        const double blur_squared = blur * blur;
-        if (radius * radius > opening_guard * opening_guard * squared ||
-            node.mass * blur_squared * blur_squared > allowance_.error * softened * softened * softened)
-            return NodeRole::Opened;
-        if (node.mass * radius * radius <= allowed_of_points_ * softened * softened)
-            return NodeRole::Point;
-        return fits_extended(node, softened) ? NodeRole::Extended : NodeRole::Opened;
-    }
-
-private:
-    double distance_squared(const ForceView::Node& node) const
-    {
-        return (lower_ - node.centre).cwiseMax(node.centre - upper_).cwiseMax(0.0).squaredNorm();
-    }
-    bool fits_extended(const ForceView::Node& node, double softened) const
-    {
-        const double radius = double(node.radius), blur = double(node.blur);
-        const double square = radius * radius;
-        return accepted_ == NodeRole::Extended &&
-               node.mass * square * square <= 4 * allowance_.error * softened * softened * softened &&
-               node.mass * radius * blur * blur <=
-                   allowance_.error * softened * softened * std::sqrt(softened);
-    }
-
-    const ForceView::Node& targets_;
-    Allowance allowance_;
-    Vector3d lower_, upper_; ///< box of the targets
-    double angle_squared_;
-    NodeRole accepted_;            ///< of nodes that act as one body
-    double allowed_of_points_ = 0; ///< error of one that acts as a point
-};
+simd::OpeningTerms<double> opening_terms(const ForceView& view, const ForceView::Node& targets,
+                                         const GravitySettings& gravity, const Allowance& allowance);
 
 } // namespace slod

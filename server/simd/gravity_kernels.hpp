@@ -51,6 +51,43 @@ struct GravityNodes : GravitySources<Real> {
     const Real* trace;                       ///< half of theirs
 };
 
+/// How a node of a tree acts on a group of targets.
+enum class NodeRole : std::uint8_t {
+    Opened,   ///< not at all: its parts do
+    Point,    ///< as one body
+    Extended, ///< as one body with second moments
+    Far,      ///< the same, by an expansion about the targets' middle
+};
+
+/// Nodes whose roles are asked for. Arrays have padded_count elements and need no alignment.
+template <class Real>
+struct NodesInQuestion {
+    std::size_t padded_count; ///< a multiple of tile_width
+    const Real *x, *y, *z;    ///< length, from the targets' centre
+    const Real* mass;
+    const Real* q;      ///< half the squared softening, length^2, >= 0
+    const Real* radius; ///< length
+    const Real* blur;   ///< length: what the softenings of its bodies differ by
+};
+
+/// What decides on the roles of nodes for one group of targets. With d the distance from the targets' box, t
+/// = d^2 + q, radius r and blur b a node acts as one body where
+///  - r^2 <= guard d^2, b^2 <= most_blur t and m b^4 <= error t^3,
+/// and then as a Point where m r^2 <= point_error t^2, or else, Extended, where
+///  - m r^4 <= extended_error t^3 and m r b^2 <= error t^(5/2).
+/// It is Far where, with d from the targets' centre, t = d^2 + q + q of the targets and s = r + reach,
+///  - s^2 <= far_guard d^2, m s^4 <= far_error t^3, m b^4 <= error t^3 and 3/2 m q_spread <= error t^2.
+/// NaN excludes a role.
+template <class Real>
+struct OpeningTerms {
+    Real lower[3], upper[3]; ///< box of the targets, from their centre
+    Real reach;              ///< their radius, length
+    Real q;                  ///< half their squared softening, in the mean
+    Real q_spread;           ///< what theirs differ by at most, length^2
+    Real guard, far_guard, most_blur;
+    Real error, point_error, extended_error, far_error; ///< acceleration / G: mass / length^2
+};
+
 /// Places of a symmetric tensor's entries among those listed below: of a matrix by row and column, and of the
 /// next rank by an entry of the rank before and one more index.
 namespace Entry {
@@ -124,6 +161,8 @@ struct GravityKernels {
     /// The nodes' count is a multiple of tile_width, their arrays aligned or not; those without mass add
     /// nothing.
     void (*add_far_nodes)(const FarPoint<Real>&, const GravityNodes<Real>&);
+    /// Writes NodeRole's number for each node.
+    void (*find_roles)(const OpeningTerms<Real>&, const NodesInQuestion<Real>&, std::uint8_t* roles);
     /// Tides too where the targets have them.
     void (*add_expansion)(const GravityTargets<Real>&, const FarExpansion<Real>&);
     void (*add_potential)(const PotentialTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);

@@ -213,6 +213,7 @@ void add(const typename Sums::Targets& targets, const typename Sums::Sources& so
 } // namespace slod::simd::SLOD_ISA
 
 #include "simd/far_kernels.inl" // and quadrupole_kernels.inl
+#include "simd/opening_kernel.inl"
 
 namespace slod::simd::SLOD_ISA {
 
@@ -225,6 +226,7 @@ constexpr GravityKernels<Real> gravity_kernels = {
     add_nodes<Real, NodesAcceleration<Real>>,
     add_nodes<Real, NodesAccelerationAndTide<Real>>,
     add_far_nodes<Real>,
+    find_roles<Real>,
     add_expansion<Real>,
     add<Real, Potential<Real>>,
 };

@@ -112,7 +112,7 @@ TEST(GravityWalk, GivesTheSameBitsOnEveryInstructionSetAndAnyNumberOfThreads)
             world.evaluate();
             const std::vector<Vector3d> expected = world.by_id();
             for (const simd::KernelTable* kernels : simd::runnable_kernels()) {
-                for (const int threads : {1, 3, 8}) {
+                for (const int threads : {1, 2, 3, 8, 16}) {
                     world.clusters().pull = pulls;
                     ThreadTeam(threads).run([&] {
                         world.rebuild();

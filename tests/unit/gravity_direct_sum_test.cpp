@@ -225,7 +225,7 @@ TEST(SumDirectly, GivesTheSameBitsOnEveryInstructionSetAndAnyNumberOfThreads)
         scene.sum(precision, *simd::runnable_kernels().front());
         const std::vector<double> expected = bits_of(scene);
         for (const simd::KernelTable* kernels : simd::runnable_kernels()) {
-            for (const int threads : {1, 3, 8}) {
+            for (const int threads : {1, 2, 3, 8, 16}) {
                 ThreadTeam(threads).run([&] { scene.sum(precision, *kernels); });
                 const std::vector<double> found = bits_of(scene);
                 EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(double)), 0)

@@ -1,6 +1,9 @@
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "gravity/opening.hpp"
+#include "simd/kernels.hpp"
 #include "support/attracting_world.hpp"
 #include "support/clouds.hpp"
 
@@ -26,15 +29,16 @@ protected:
     /// As what it may.
     NodeRole role(double radius, double distance, double mass = 1, double q = 0, double blur = 0)
     {
-        ForceView::Node node;
-        node.radius = float(radius);
-        node.centre = {distance, 0, 0};
-        node.mass = mass;
-        node.q = q;
-        node.blur = float(blur);
         targets_.radius = float(reach_);
         const Allowance allowance = allowance_for(world_.view, targets_, settings_, G, pulls_, 0);
-        return Opening(world_.view, targets_, settings_, allowance).role_of(node);
+        std::array<double, simd::tile_width> x{distance}, nothing{}, masses{mass}, qs{q}, radii{radius},
+            blurs{blur};
+        std::array<std::uint8_t, simd::tile_width> roles{};
+        simd::kernels().in_double.find_roles(opening_terms(world_.view, targets_, settings_, allowance),
+                                             {roles.size(), x.data(), nothing.data(), nothing.data(),
+                                              masses.data(), qs.data(), radii.data(), blurs.data()},
+                                             roles.data());
+        return NodeRole(roles.front());
     }
 
     static constexpr double G = 2;
@@ -142,6 +146,7 @@ TEST_F(OpeningTest, NodesAreFarWhereBothRadiiAreSmallBesideTheDistance)
     EXPECT_NE(role(0.651, 1, 1e-9), NodeRole::Far) << "within the guard";
     reach_ = 0;
     EXPECT_EQ(role(0.25, 1, 2), NodeRole::Point) << "targets in one place need no expansion";
+    EXPECT_EQ(role(0, 0, 2, 0.1), NodeRole::Point) << "nor of what is there, too";
     reach_ = 0.25;
     settings_.multipoles = Multipoles::Monopole;
     EXPECT_EQ(role(0.25, 1, 0.01), NodeRole::Point);
