@@ -43,9 +43,13 @@ constexpr std::array<std::string_view, 2> names(Multipoles)
     return {"monopole", "quadrupole"};
 }
 
+/// The largest median error that can be asked for.
+inline constexpr double most_accuracy = 4e-3;
+
 /// Self-gravity between clusters.
 struct GravitySettings {
     double strength = 1;         ///< factor on Newton's constant
+    double accuracy = 0;         ///< median relative error to aim at: with_accuracy(); 0: none
     double size_softening = 0.1; ///< c in e^2 = eps^2 + c (s_i + s_j), s the position variance
     bool closure = true;         ///< members attract each other as a homogeneous ball
     Precision precision = Precision::Mixed;
@@ -62,10 +66,21 @@ struct GravitySettings {
     friend bool operator==(const GravitySettings&, const GravitySettings&) = default;
 };
 
+/// What accuracy chooses, if it is given: everything else as it is.
+GravitySettings with_accuracy(const GravitySettings& asked);
+
+/// What is wrong with the settings together, each with the key in front; empty when nothing is.
+Problems problems(const GravitySettings& gravity);
+
 template <class Visitor>
 void for_each_field(GravitySettings& gravity, Visitor&& visit)
 {
     visit(Field{"strength", "", "Factor on Newton's constant.", 0, 1e30}, gravity.strength);
+    visit(Field{"accuracy", "",
+                "Median relative error of the forces to aim at, by which the criterion, what nodes "
+                "are made of and their tolerance are chosen; 0: as they are set.",
+                0, most_accuracy},
+          gravity.accuracy);
     visit(Field{"size_softening", "",
                 "Share of the clusters' position variances added to a pair's squared softening.", 0, 10},
           gravity.size_softening);

@@ -181,7 +181,7 @@ void Simulation::State::set_detail()
     reforming.set_clock(settings.motion.clock * tree.detail.life);
     if (!settings.gravity)
         return;
-    gravity = *settings.gravity;
+    gravity = with_accuracy(*settings.gravity);
     gravity.force_tolerance *= tree.detail.opening;
     gravity.opening_angle = std::min(gravity.opening_angle * std::sqrt(tree.detail.opening), widest_opening);
 }

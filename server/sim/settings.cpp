@@ -217,6 +217,9 @@ Problems problems(const SimulationSettings& settings)
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);
     check_sinks(settings.sinks, found);
+    if (settings.gravity)
+        for (const std::string& problem : problems(*settings.gravity))
+            found.push_back("gravity." + problem);
     check_regions(settings.regions, settings.sharing, found);
     check_lives(settings.motion, found);
     check_rigid_rules(settings.motion, found);

@@ -36,16 +36,9 @@ MapRule map_rule(const Plan& plan, const UniformFields& fields, double step)
     return {plan.map, fields.drag, step, !plan.turning && !plan.local_air};
 }
 
-/// Side of the background's grid cells: the maximum breadth, or, when that is unlimited, a power of two
-/// that spans the initial particles, for the k-d trees to refine.
 double background_cell_side(const RegionSettings& background, const ParticleSet& initial)
 {
-    if (std::isfinite(background.max_breadth))
-        return background.max_breadth;
-    double extent = 0;
-    for (const Particle& particle : initial)
-        extent = std::max(extent, (particle.position - initial.front().position).cwiseAbs().maxCoeff());
-    return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) + 1) : 1.0;
+    return std::isfinite(background.max_breadth) ? background.max_breadth : spanning_cell_side(initial);
 }
 
 SlodTree tree_of(const SimulationSettings& settings, const ParticleSet& initial)
@@ -191,8 +184,7 @@ void Simulation::State::make_room()
     if (air)
         air->reserve(store.clusters.slot_capacity());
     if (settings.gravity) {
-        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size(),
-                *settings.gravity);
+        reserve(view, store.clusters.slot_capacity(), tree.pool_capacity(), tree.subtrees.size(), gravity);
         reserve(force_lists, store.clusters.slot_capacity());
     }
 }

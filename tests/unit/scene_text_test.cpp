@@ -219,6 +219,8 @@ Scene random_scene(std::uint64_t seed)
         else if (table && faulty(*table))
             table.reset();
     });
+    if (simulation.gravity && !problems(*simulation.gravity).empty()) // accuracy beside what it chooses
+        simulation.gravity->accuracy = 0;
     if (auto& springs = simulation.fields.of<Spring>(); springs.size() > 1)
         springs.resize(1); // together they may be too stiff
     bool winds = simulation.uniform_wind.has_value();
