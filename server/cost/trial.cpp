@@ -4,21 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "cost/quantile.hpp"
 #include "sim/simulation.hpp"
 
 namespace slod::cost {
-namespace {
-
-double quantile(std::vector<double> values, double q)
-{
-    if (values.empty())
-        return 0;
-    const auto place = values.begin() + std::ptrdiff_t(q * double(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
-
-} // namespace
 
 std::string Setting::name() const
 {

@@ -15,6 +15,11 @@ namespace {
 const Box all_space{Vector3d::Constant(-std::numeric_limits<double>::infinity()),
                     Vector3d::Constant(std::numeric_limits<double>::infinity())};
 
+double power_of_two_above(double width)
+{
+    return width > 0 ? std::ldexp(1.0, std::ilogb(width) + 1) : 1.0;
+}
+
 /// Side of a region's grid cells: the maximum breadth or, when that is unlimited, a power of two that spans
 /// the region, for the k-d trees to refine.
 double cell_side_of(const SlodTree& tree, const RegionOfInterest& region, double max_breadth)
@@ -25,7 +30,7 @@ double cell_side_of(const SlodTree& tree, const RegionOfInterest& region, double
     constexpr double widest = 1e300; // whose power of two is a number yet
     if (width > widest)
         return tree.subtrees[background_row].cell_side;
-    return width > 0 ? std::ldexp(1.0, std::ilogb(width) + 1) : 1.0;
+    return power_of_two_above(width);
 }
 
 /// The same for a region that has cells already: where only its width asks for others, a factor of two is not
@@ -116,6 +121,14 @@ std::size_t SlodTree::pool_capacity() const
     for (const Subtree& subtree : subtrees)
         capacity += subtree.pools.capacity();
     return capacity;
+}
+
+double spanning_cell_side(std::span<const Particle> particles)
+{
+    double extent = 0;
+    for (const Particle& particle : particles)
+        extent = std::max(extent, (particle.position - particles.front().position).cwiseAbs().maxCoeff());
+    return power_of_two_above(extent);
 }
 
 RegionRow open_region(SlodTree& tree, const RegionOfInterest& region)

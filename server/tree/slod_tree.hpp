@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "cluster/particles.hpp"
 #include "tree/detail.hpp"
 #include "tree/region_index.hpp"
 #include "tree/subtree.hpp"
@@ -57,6 +59,10 @@ struct SlodTree {
     std::size_t pool_count() const;
     std::size_t pool_capacity() const; ///< of all regions, without taking memory
 };
+
+/// Side of grid cells without a maximum breadth: a power of two that spans the particles from the first one,
+/// for the k-d trees to refine.
+double spanning_cell_side(std::span<const Particle> particles);
 
 /// Opens a region in a free row. It takes clusters from the next update on; settle() before that.
 RegionRow open_region(SlodTree& tree, const RegionOfInterest& region);

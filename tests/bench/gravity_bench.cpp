@@ -1,154 +1,104 @@
-// One evaluation of the forces between single particles: by all pairs and by walks of the tree, of monopoles
-// and of quadrupoles, time, cost and error.
+// One evaluation of the forces between single particles, by number, accuracy and threads: time, error and
+// cost.
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.hpp"
-#include "support/attracting_world.hpp"
-#include "support/clouds.hpp"
+#include "cost/bodies.hpp"
+#include "cost/force_report.hpp"
 
 namespace {
 
 using namespace slod;
 
-constexpr double softening = 0.01; // in scale radii
-constexpr int round_count = 5;
-
-/// Seconds of the best of some rounds: what disturbs only ever slows.
-template <class Work>
-double seconds(int rounds, const Work& work)
+double milliseconds()
 {
-    using Clock = std::chrono::steady_clock;
-    double best = 1e30;
-    for (int round = 0; round < rounds; ++round) {
-        const auto start = Clock::now();
-        work();
-        best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
-    }
-    return best;
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
-struct Row {
-    std::size_t bodies;
-    const char* method;
-    double build_s, forces_s;
-    double interactions; ///< per body
-    double nodes_tested; ///< per walk
-    test::ForceErrors errors;
-
-    double pairs_per_second() const { return interactions * double(bodies) / forces_s; }
+struct Table {
+    std::string model = "plummer";
+    std::vector<std::size_t> bodies{10'000, 100'000, 1'000'000};
+    std::vector<double> accuracies{3e-4, 1e-3, 3e-3};
+    std::vector<int> threads{1, int(std::max(std::thread::hardware_concurrency(), 1U))};
+    double softening = 0.01;
+    int repeats = 5;
 };
 
-ParticleSet make_cloud(const std::string& name, std::size_t bodies)
+/// All rows of a number of bodies and threads, each told to `row`.
+template <class Row>
+void measure(const Table& table, std::size_t count, int threads, const Row& row)
 {
-    if (name == "disc")
-        return test::cloud(bodies, 4, test::in_exponential_disc);
-    if (name == "box")
-        return test::cloud(bodies, 3, test::in_unit_box);
-    if (name == "clumps")
-        return test::two_clumps(bodies, 1);
-    return name == "spectrum" ? test::mass_spectrum(bodies, 2) : test::plummer_sphere(bodies, 1);
-}
-
-Row measure(test::AttractingWorld& world, const char* method, std::uint32_t direct_below,
-            Multipoles multipoles = Multipoles::Monopole)
-{
-    const std::size_t bodies = world.view.body_count();
-    const int rounds = direct_below > 0 && bodies > 50'000 ? 1 : round_count;
-    world.settings.direct_below = direct_below;
-    world.settings.multipoles = multipoles;
-    const double build_s = seconds(round_count, [&] { world.rebuild(); });
-    world.evaluate(); // for the pulls of the relative criterion
-    ForceCounts counts;
-    const double forces_s = seconds(rounds, [&] { counts = world.evaluate(); });
-    return {bodies,
-            method,
-            build_s,
-            forces_s,
-            double(counts.interactions) / double(bodies),
-            counts.groups > 0 ? double(counts.nodes_tested) / double(counts.groups) : 0,
-            test::force_errors(world)};
-}
-
-std::vector<Row> measure_all(const std::string& cloud, const std::vector<std::size_t>& sizes, bool tide,
-                             double tolerance)
-{
-    std::vector<Row> rows;
-    for (const std::size_t bodies : sizes) {
-        test::AttractingWorld world(make_cloud(cloud, bodies), softening);
-        world.clusters().columns.tide = tide;
-        world.settings.force_tolerance = tolerance;
-        rows.push_back(measure(world, "direct", UINT32_MAX));
-        rows.push_back(measure(world, "monopoles", 0));
-        rows.push_back(measure(world, "quadrupoles", 0, Multipoles::Quadrupole));
-    }
-    return rows;
-}
-
-/// What a machine-free comparison counts: pairs that direct sums would have evaluated in the time, per body.
-double equivalent_pairs(const Row& row, double rate)
-{
-    return (row.build_s + row.forces_s) * rate / double(row.bodies);
+    ThreadTeam(threads).run([&] {
+        const ParticleSet bodies = cost::cloud(count, 1, cost::cloud_model(table.model)->place);
+        const cost::ExactForces exact = cost::exact_forces(bodies, table.softening);
+        cost::ForceWorld world(bodies, table.softening);
+        for (const double accuracy : table.accuracies) {
+            const cost::ForceReport asked{.model = table.model,
+                                          .bodies = count,
+                                          .threads = threads,
+                                          .softening = table.softening,
+                                          .gravity = {.accuracy = accuracy}};
+            row(cost::measure(world, exact, asked, table.repeats, milliseconds));
+        }
+    });
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Measures one evaluation of the forces in a cloud, with errors on 1000 of its bodies.");
-    bool as_json = false, tide = false;
-    int threads = 1;
-    double tolerance = GravitySettings{}.force_tolerance;
-    std::string cloud = "sphere";
-    std::vector<std::size_t> sizes{10'000, 100'000};
+    CLI::App app("Measures one evaluation of the forces in a cloud, with errors on 2000 of its bodies.");
+    Table table;
+    bool as_json = false;
+    std::string csv;
     app.add_flag("--json", as_json, "Print all figures as one JSON object on the last line, too.");
-    app.add_flag("--tide", tide, "Sum tidal tensors, too.");
-    app.add_option("--threads", threads, "Threads to use.")->check(CLI::Range(1, 256));
-    app.add_option("--cloud", cloud, "A Plummer sphere, or another cloud of the tests.")
-        ->check(CLI::IsMember({"sphere", "disc", "clumps", "spectrum", "box"}));
-    app.add_option("--bodies", sizes, "Numbers of bodies.")->check(CLI::Range(1, 10'000'000));
-    app.add_option("--tolerance", tolerance, "Of the relative opening criterion.");
+    app.add_option("--csv", csv, "Write them to this file, too.")->option_text("FILE");
+    app.add_option("--model", table.model, "plummer, clumps, disc or box.")
+        ->check([](const std::string& name) {
+            return cost::cloud_model(name) != nullptr ? std::string() : "there is no model " + name;
+        })
+        ->option_text("MODEL");
+    app.add_option("--bodies", table.bodies, "Numbers of bodies.")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
+    app.add_option("--accuracy", table.accuracies, "Median errors to aim at; 0: the default settings.")
+        ->check(CLI::Range(0.0, most_accuracy));
+    app.add_option("--threads", table.threads, "Numbers of threads.")->check(CLI::Range(1, 256));
+    app.add_option("--repeats", table.repeats, "Evaluations, of which times are medians.")
+        ->check(CLI::Range(1, 1000));
     CLI11_PARSE(app, argc, argv);
 
-    std::vector<Row> rows;
-    ThreadTeam(threads).run([&] { rows = measure_all(cloud, sizes, tide, tolerance); });
-    double rate = 0;
-    for (const Row& row : rows)
-        if (row.method == std::string("direct"))
-            rate = std::max(rate, row.pairs_per_second());
-
-    nlohmann::ordered_json runs;
-    std::printf("%8s %-11s %9s %9s %9s %9s %10s %10s %12s\n", "bodies", "method", "build ms", "forces ms",
-                "per body", "tested", "median", "p99", "equivalent");
-    for (const Row& row : rows) {
-        std::printf("%8zu %-11s %9.2f %9.2f %9.0f %9.0f %10.2e %10.2e %12.0f\n", row.bodies, row.method,
-                    row.build_s * 1e3, row.forces_s * 1e3, row.interactions, row.nodes_tested,
-                    row.errors.median, row.errors.p99, equivalent_pairs(row, rate));
-        runs.push_back({{"bodies", row.bodies},
-                        {"method", row.method},
-                        {"build_ms", row.build_s * 1e3},
-                        {"forces_ms", row.forces_s * 1e3},
-                        {"interactions_per_body", row.interactions},
-                        {"nodes_tested_per_walk", row.nodes_tested},
-                        {"median_error", row.errors.median},
-                        {"p99_error", row.errors.p99},
-                        {"equivalent_pairs_per_body", equivalent_pairs(row, rate)}});
+    std::ofstream file;
+    if (!csv.empty()) {
+        file.open(csv);
+        file << cost::csv_head() << '\n';
     }
-    if (as_json) {
-        const nlohmann::ordered_json report = {{"benchmark", "gravity"},
-                                               {"cloud", cloud},
-                                               {"threads", threads},
-                                               {"tide", tide},
-                                               {"force_tolerance", tolerance},
-                                               {"direct_pairs_per_second", rate},
-                                               {"runs", runs}};
-        std::printf("%s\n", report.dump().c_str());
+    nlohmann::ordered_json rows;
+    std::printf("%s\n", cost::table_head().c_str());
+    for (const std::size_t count : table.bodies) {
+        for (const int threads : table.threads) {
+            measure(table, count, threads, [&](const cost::ForceReport& report) {
+                std::printf("%s\n", cost::table_row(report).c_str());
+                std::fflush(stdout);
+                if (!csv.empty())
+                    file << cost::csv_row(report) << '\n';
+                rows.push_back(nlohmann::ordered_json::parse(cost::json_text(report)));
+            });
+        }
     }
+    if (!csv.empty() && !file.flush()) {
+        std::fprintf(stderr, "bench-gravity: cannot write %s\n", csv.c_str());
+        return 1;
+    }
+    if (as_json)
+        std::printf("%s\n", nlohmann::ordered_json{{"benchmark", "gravity"}, {"rows", rows}}.dump().c_str());
 }

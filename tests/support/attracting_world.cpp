@@ -1,20 +1,19 @@
 #include "support/attracting_world.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "tree/regrouping.hpp"
 
 namespace slod::test {
 namespace {
 
-double spanning_cell_side(const std::vector<ParticleSet>& regions)
+/// The widest that any of the regions asks for.
+double widest_cell_side(const std::vector<ParticleSet>& regions)
 {
-    double extent = 0;
+    double side = 0;
     for (const ParticleSet& particles : regions)
-        for (const Particle& particle : particles)
-            extent = std::max(extent, (particle.position - particles.front().position).cwiseAbs().maxCoeff());
-    return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) + 1) : 1.0;
+        side = std::max(side, spanning_cell_side(particles));
+    return side;
 }
 
 } // namespace
@@ -24,7 +23,7 @@ AttractingWorld::AttractingWorld(const ParticleSet& particles, double softening)
 {}
 
 AttractingWorld::AttractingWorld(const std::vector<ParticleSet>& regions, double softening)
-    : world_({MapKind::Identity, 0, 1}, {.kinds = true}, {.max_cluster_size = 1}, spanning_cell_side(regions))
+    : world_({MapKind::Identity, 0, 1}, {.kinds = true}, {.max_cluster_size = 1}, widest_cell_side(regions))
 {
     world_.store.kind_softening_squared = {softening * softening, 4 * softening * softening,
                                            100 * softening * softening};

@@ -1,0 +1,45 @@
+#include "cost/command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+#include <unistd.h>
+
+namespace slod::cost {
+
+int complain(const Problems& problems)
+{
+    for (const std::string& problem : problems)
+        std::fprintf(stderr, "slod-cost: %s\n", problem.c_str());
+    return wrong;
+}
+
+double milliseconds()
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+int team_size(int threads)
+{
+    return threads > 0 ? threads : int(std::max(std::thread::hardware_concurrency(), 1U));
+}
+
+void add_threads_option(CLI::App& command, int& threads)
+{
+    command.add_option("--threads", threads, "Threads; without it, one per core")
+        ->check(CLI::Range(1, 1024))
+        ->option_text("N");
+}
+
+std::string machine_name()
+{
+    std::array<char, 65> host{};
+    gethostname(host.data(), host.size() - 1);
+    return std::string(host.data()) + ", " + std::to_string(std::thread::hardware_concurrency()) +
+           " processors";
+}
+
+} // namespace slod::cost

@@ -1,0 +1,110 @@
+#include "cost/scene_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <unistd.h>
+#include <variant>
+
+#include "core/parallel.hpp"
+#include "cost/answer.hpp"
+#include "cost/command.hpp"
+#include "cost/report_files.hpp"
+#include "cost/sweep.hpp"
+#include "idl/gnuplot.hpp"
+#include "idl/version.hpp"
+
+namespace slod::cost {
+namespace {
+
+/// On a terminal, in place: what runs, how far everything is, and how long it will take.
+void show_progress(const std::string& name, double share, double began_ms)
+{
+    const double left_s = share > 0 ? (milliseconds() - began_ms) * (1 / share - 1) / 1000 : 0;
+    std::fprintf(stderr, "\r%3.0f %%  %-28s %4.0f s left ", 100 * share, name.c_str(), left_s);
+}
+
+void write(const std::filesystem::path& file, const std::string& text)
+{
+    std::ofstream stream(file);
+    stream << text;
+    if (!stream.flush())
+        throw std::runtime_error("cannot write " + file.string());
+}
+
+} // namespace
+
+SceneCommand::SceneCommand(CLI::App& app)
+    : command_(app.add_subcommand("scene", "Sweep motion and cluster size on a scene"))
+{
+    command_->add_option("SCENE", scene_, "Scene file (TOML)")->option_text("FILE")->required();
+    command_->add_option("--out", folder_, "Folder of cost.csv, cost.json, cost.png and cost.svg")
+        ->option_text("FOLDER");
+    command_->add_option("--input", input_, "Initial conditions, instead of the scene's own")
+        ->option_text("FILE");
+    command_->add_option("--set", settings_, "A setting, table.key=value, over the scene's; may be repeated")
+        ->type_size(1)
+        ->allow_extra_args(false)
+        ->option_text("KEY=VALUE");
+    command_->add_option("--frames", frames_, "Frames of each run; 300, or 100 with --quick")
+        ->check(CLI::Range(10, 1'000'000))
+        ->option_text("N");
+    add_threads_option(*command_, threads_);
+    command_->add_flag("--quick", quick_, "Fewer settings, frames and seeds: some minutes");
+    command_->footer("An error of 1 is what another seed differs by; below 2 is good, above 3 visible.\n"
+                     "Exit codes: 0 done, 1 failed, 2 wrong usage, scene or initial conditions.");
+}
+
+int SceneCommand::run() const
+{
+    auto loaded = load_scene(scene_, settings_);
+    if (const auto* problems = std::get_if<Problems>(&loaded))
+        return complain(*problems);
+    const Scene& scene = std::get<Scene>(loaded);
+    if (const auto first = load_initial(scene, input_); std::holds_alternative<Problems>(first))
+        return complain(std::get<Problems>(first));
+    std::filesystem::create_directories(folder_);
+
+    const auto initial = [&](std::uint64_t seed) {
+        Scene seeded = scene;
+        seeded.simulation.seed = seed;
+        auto particles = load_initial(seeded, input_);
+        if (const auto* problems = std::get_if<Problems>(&particles))
+            throw std::runtime_error(problems->front());
+        return std::get<InitialParticles>(std::move(particles)).particles;
+    };
+    SweepPlan plan = quick_ ? SweepPlan::quick() : SweepPlan::full();
+    if (frames_ > 0)
+        plan.frames = frames_;
+    const int threads = team_size(threads_);
+    const bool on_terminal = isatty(STDERR_FILENO) != 0;
+    const double began = milliseconds();
+    ThreadTeam team(threads);
+    Sweep sweep;
+    team.run([&] {
+        sweep = run_sweep(scene.simulation, initial, plan, milliseconds,
+                          [&](const std::string& name, double share) {
+                              if (on_terminal)
+                                  show_progress(name, share, began);
+                          });
+    });
+    if (on_terminal)
+        std::fprintf(stderr, "\r%60s\r", "");
+
+    const Circumstances circumstances{.scene = scene.title,
+                                      .version = std::string(version()),
+                                      .machine = machine_name(),
+                                      .particles = sweep.rows.front().clusters,
+                                      .frames = plan.frames,
+                                      .threads = threads};
+    write(folder_ / "cost.csv", csv_text(sweep));
+    write(folder_ / "cost.json", json_text(sweep, circumstances));
+    const std::string undrawn = run_gnuplot(plot_script(sweep, circumstances, folder_ / "cost"));
+    std::printf("%s\n%s", table_text(sweep).c_str(), answer(sweep).c_str());
+    if (!undrawn.empty())
+        std::fprintf(stderr, "slod-cost: %s\n", undrawn.c_str());
+    return undrawn.empty() ? 0 : failed;
+}
+
+} // namespace slod::cost
