@@ -12,10 +12,9 @@ namespace {
 /// flights that take a fifth of a frame. Four or five of them fit into one.
 constexpr double rest_of_pull = 0.1;
 
-bool meet(const Box& a, const Box& b, double reach)
+bool meet(const Box& a, const Box& b)
 {
-    return (a.lower.array() - reach <= b.upper.array()).all() &&
-           (b.lower.array() <= a.upper.array() + reach).all();
+    return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
 }
 
 /// Lets friction act on what slides: a constant deceleration that is no more than the surfaces' grip, and
@@ -35,22 +34,18 @@ bool brake(const Hold& held, const Elapsed& left, Path& path)
     return true;
 }
 
-/// Whether a particle that touches the surface leaves it or moves along it, as far as rounding can tell.
-bool leaves(const Contact& contact, const Vector3d& velocity)
-{
-    return contact.normal.dot(velocity) >= -1e-14 * velocity.norm();
-}
-
 } // namespace
 
 Colliders::Colliders(const std::vector<ColliderSettings>& settings, const UniformFields& fields, double step)
-    : step_(step)
+    : step_(step), frame_end_(step)
 {
     set_fields(fields);
     for (const ColliderSettings& each : settings) {
         std::unique_ptr<Solid> solid = make_solid(each);
-        const Box bounds = solid->bounds();
-        all_.push_back({std::move(solid), bounds, each.restitution, each.friction});
+        std::unique_ptr<Sheet> sheet = solid ? nullptr : make_sheet(each);
+        const Box bounds = solid ? solid->bounds() : sheet->bounds();
+        all_.push_back(
+            {std::move(solid), std::move(sheet), bounds, each.restitution, each.friction, each.velocity});
     }
 }
 
@@ -60,15 +55,49 @@ void Colliders::set_fields(const UniformFields& fields)
     frame_ = Elapsed(fields.drag, step_);
 }
 
+/// As it is for who moves with the collider and has its place at time 0, so long before the frame's end.
+Path Colliders::seen_from(const Collider& collider, const Path& path, double left) const
+{
+    return {path.position - shift(collider, left), path.velocity - collider.velocity,
+            path.acceleration - path.drag * collider.velocity, path.drag};
+}
+
+/// Calls visit(piece, its solid) for each that the sweep may meet until it returns true; returns whether it
+/// did.
+template <class Visit>
+bool Colliders::any_piece(const Collider& collider, const Sweep& sweep, const Visit& visit) const
+{
+    if (!meet(sweep.bounds(), collider.bounds))
+        return false;
+    const auto index = std::uint32_t(&collider - all_.data());
+    if (collider.solid)
+        return visit(Piece{index}, *collider.solid);
+    return collider.sheet->any(sweep, [&](std::uint32_t plate) {
+        return visit(Piece{index, plate}, Plate(*collider.sheet, plate));
+    });
+}
+
+template <class Visit>
+void Colliders::visit_piece(const Piece& piece, const Visit& visit) const
+{
+    const Collider& collider = all_[piece.collider];
+    if (collider.solid)
+        visit(piece, *collider.solid);
+    else
+        visit(piece, Plate(*collider.sheet, piece.plate));
+}
+
 bool Colliders::may_touch(const Vector3d& position, const Vector3d& velocity, double reach, double time,
                           const UniformFields& fields) const
 {
     const Path path{position, velocity, fields.acceleration(), fields.drag};
     const Elapsed whole = elapsed(time, fields.drag);
-    const Box way = path.bounds(whole);
     return std::any_of(all_.begin(), all_.end(), [&](const Collider& collider) {
-        return meet(way, collider.bounds, reach + contact_tolerance(position)) &&
-               first_contact(path, *collider.solid, reach, whole, false) <= time;
+        const Path seen = seen_from(collider, path, time);
+        const Sweep sweep = seen.sweep(whole, reach + contact_tolerance(position));
+        return any_piece(collider, sweep, [&](const Piece&, const Solid& solid) {
+            return first_contact(seen, solid, reach, whole, false) <= time;
+        });
     });
 }
 
@@ -78,16 +107,19 @@ Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, doub
     const Vector3d pull = fields.acceleration() + acceleration;
     Encounter encounter;
     Contacts contacts;
-    std::optional<std::uint32_t> met;
+    std::optional<Piece> met;
+    std::uint32_t bounces = 0;
     for (std::uint32_t meetings = 0;; ++meetings) {
-        touch(position, met, contacts);
-        if (meetings == most_meetings) {
-            velocity.setZero();
+        touch(position, time, met, contacts);
+        if (met && (bounces + 1 == most_meetings || meetings == most_slides)) {
+            velocity = all_[met->collider].velocity;
+            position += time * velocity;
             encounter.cut_off = true;
             return encounter;
         }
         const Elapsed left = elapsed(time, fields.drag);
         const Departure departure = leave({position, velocity, pull, fields.drag}, left, contacts, encounter);
+        bounces += met && departure.bounces ? 1 : 0;
         const std::optional<Impact> impact = next_impact(departure.path, left, contacts);
         encounter.touched = encounter.touched || impact || !contacts.all().empty();
         const Elapsed flown = impact ? elapsed(impact->time, fields.drag) : left;
@@ -95,37 +127,51 @@ Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, doub
         velocity = departure.path.velocity_after(flown);
         if (!impact) {
             if (departure.stops)
-                velocity.setZero();
+                velocity = departure.rest;
             return encounter;
         }
         time -= flown.time;
-        met = impact->collider;
+        met = impact->piece;
     }
 }
 
-/// Finds what the particle touches at its place, the solid that it has just met in any case, and puts it onto
+Contact Colliders::contact_with(const Piece& piece, const Solid& solid, const Vector3d& place) const
+{
+    const Collider& collider = all_[piece.collider];
+    Contact contact{piece, solid.surface(place).normal, collider.restitution, collider.friction};
+    contact.slack += solid.slack(place);
+    contact.velocity = collider.velocity;
+    return contact;
+}
+
+/// Finds what the particle touches at its place, the piece that it has just met in any case, and puts it onto
 /// the surface where rounding, or the scene, has it inside. Where solids overlap that takes some turns.
-void Colliders::touch(Vector3d& position, std::optional<std::uint32_t> met, Contacts& contacts) const
+void Colliders::touch(Vector3d& position, double left, std::optional<Piece> met, Contacts& contacts) const
 {
     constexpr int turns = 4;
     const double tolerance = contact_tolerance(position);
     bool moved = true;
+    const auto look_at = [&](const Piece& piece, const Solid& solid) {
+        const Vector3d place = position - shift(all_[piece.collider], left);
+        const Surface surface = solid.surface(place);
+        if (met != piece && (surface.distance > tolerance || solid.cover(place).count > 0))
+            return false;
+        contacts.add(contact_with(piece, solid, place));
+        if (std::abs(surface.distance) > tolerance) {
+            position -= surface.distance * surface.normal;
+            moved = true;
+        }
+        return false;
+    };
     for (int turn = 0; moved && turn < turns; ++turn) {
         moved = false;
         contacts.clear();
-        for (std::uint32_t i = 0; i < all_.size(); ++i) {
-            const Collider& collider = all_[i];
-            if (met != i && !meet({position, position}, collider.bounds, tolerance))
-                continue;
-            const Surface surface = collider.solid->surface(position);
-            if (met != i && surface.distance > tolerance)
-                continue;
-            contacts.add({i, surface.normal, collider.restitution, collider.friction});
-            if (std::abs(surface.distance) > tolerance) {
-                position -= surface.distance * surface.normal;
-                moved = true;
-            }
+        for (const Collider& collider : all_) {
+            const Vector3d place = position - shift(collider, left);
+            any_piece(collider, {place, place, Vector3d::Constant(tolerance)}, look_at);
         }
+        if (met && contacts.find(*met) == nullptr)
+            visit_piece(*met, look_at);
     }
 }
 
@@ -134,20 +180,24 @@ Colliders::Departure Colliders::leave(Path path, const Elapsed& left, Contacts& 
                                       Encounter& encounter) const
 {
     if (contacts.all().empty())
-        return {path, false};
+        return {path, false, false, {0, 0, 0}};
     std::array<double, Contacts::most> rest_speed{};
     std::size_t touched = 0;
+    std::uint32_t impacts = 0;
     for (const Contact& contact : contacts.all()) {
-        const double pull = std::max(0.0, -contact.normal.dot(path.acceleration));
-        rest_speed[touched] = rest_of_pull * pull * step_;
-        encounter.impacts += bounce(contact, rest_speed[touched], path.velocity) ? 1 : 0;
+        const Vector3d seen = path.acceleration - path.drag * contact.velocity;
+        rest_speed[touched] = rest_of_pull * std::max(0.0, -contact.normal.dot(seen)) * step_;
+        impacts += bounce(contact, rest_speed[touched], path.velocity) ? 1 : 0;
         ++touched;
     }
-    const Hold held = hold(contacts.all(), rest_speed, path.velocity, path.acceleration);
+    encounter.impacts += impacts;
+    const Hold held = hold(contacts.all(), rest_speed, path.velocity, path.acceleration, path.drag);
     path.velocity = held.velocity;
     path.acceleration = held.acceleration;
     const bool stops = brake(held, left, path);
-    return {path, stops};
+    path.velocity += held.frame;
+    path.acceleration += path.drag * held.frame;
+    return {path, impacts > 0, stops, held.frame};
 }
 
 /// The earliest one; of several at once that of the first collider.
@@ -156,18 +206,21 @@ std::optional<Colliders::Impact> Colliders::next_impact(const Path& path, const 
 {
     std::optional<Impact> next;
     Elapsed latest = limit;
-    const Box way = path.bounds(limit);
     const double tolerance = contact_tolerance(path.position);
-    for (std::uint32_t i = 0; i < all_.size(); ++i) {
-        const Contact* const contact = contacts.find(i);
-        if ((contact != nullptr && contact->holds) || !meet(way, all_[i].bounds, tolerance))
-            continue;
-        const bool leaving = contact != nullptr && leaves(*contact, path.velocity);
-        const double time = first_contact(path, *all_[i].solid, 0, latest, leaving);
-        if (time < (next ? next->time : never)) {
-            next = {i, time};
-            latest = Elapsed(path.drag, time);
-        }
+    for (const Collider& collider : all_) {
+        const Path seen = seen_from(collider, path, limit.time);
+        any_piece(collider, seen.sweep(limit, tolerance), [&](const Piece& piece, const Solid& solid) {
+            const Contact* const contact = contacts.find(piece);
+            if (contact != nullptr && contact->holds)
+                return false;
+            const bool leaving = contact != nullptr && contact->leaves(path.velocity);
+            const double time = first_contact(seen, solid, 0, latest, leaving);
+            if (time < (next ? next->time : never)) {
+                next = {piece, time};
+                latest = Elapsed(path.drag, time);
+            }
+            return false;
+        });
     }
     return next;
 }

@@ -7,6 +7,7 @@
 
 #include "effects/contact.hpp"
 #include "effects/path.hpp"
+#include "effects/sheet.hpp"
 #include "effects/uniform_fields.hpp"
 
 namespace slod {
@@ -22,8 +23,12 @@ public:
 
     const UniformFields& fields() const { return fields_; }
 
+    /// Flights end at this time from here on. Colliders are where the scene has them at 0; before the first
+    /// call of this, the first frame's flights are meant.
+    void set_frame_end(double time) { frame_end_ = time; }
+
     /// Whether anything within `reach` of a place that moves from `position` at `velocity` through `fields`
-    /// may touch a solid within `time`. Never false falsely.
+    /// may touch a solid within `time`, which is up to the frame's end. Never false falsely.
     bool may_touch(const Vector3d& position, const Vector3d& velocity, double reach, double time,
                    const UniformFields& fields) const;
     bool may_touch(const Vector3d& position, const Vector3d& velocity, double reach, double time) const
@@ -38,9 +43,10 @@ public:
         bool cut_off = false; ///< it met more surfaces than a particle may at once
     };
 
-    /// Moves a particle by `time`, exactly from impact to impact, with `acceleration` besides that of the
-    /// fields. Where it meets a surface for the `most_meetings`th time it stays, at rest, until the time is
-    /// over. One that starts inside a solid is put on its surface first, and gains no speed by that.
+    /// Moves a particle by `time`, up to the frame's end, exactly from impact to impact, with `acceleration`
+    /// besides that of the fields. Where it meets a surface for the `most_meetings`th time, or for the
+    /// `most_slides`th without an impact, it stays on it until the time is over. One that starts inside a
+    /// solid is put on its surface first, and gains no speed by that.
     Encounter fly(Vector3d& position, Vector3d& velocity, double time, const Vector3d& acceleration,
                   const UniformFields& fields) const;
     Encounter fly(Vector3d& position, Vector3d& velocity, double time,
@@ -50,37 +56,53 @@ public:
     }
 
     static constexpr std::uint32_t most_meetings = 8;
+    static constexpr std::uint32_t most_slides = 256;
 
 private:
     struct Collider {
-        std::unique_ptr<Solid> solid;
+        std::unique_ptr<Solid> solid; ///< or else
+        std::unique_ptr<Sheet> sheet;
         Box bounds;
         double restitution, friction;
+        Vector3d velocity;
     };
 
-    /// Which solid is met, and when.
+    /// Which piece is met, and when.
     struct Impact {
-        std::uint32_t collider;
+        Piece piece;
         double time;
     };
 
     /// How a particle goes on from where it is.
     struct Departure {
         Path path;
-        bool stops; ///< at the end of it
+        bool bounces;
+        bool stops;    ///< at the end of it, on what holds it
+        Vector3d rest; ///< the velocity of that
     };
 
     Elapsed elapsed(double time, double drag) const
     {
         return time == step_ && drag == fields_.drag ? frame_ : Elapsed(drag, time);
     }
-    void touch(Vector3d& position, std::optional<std::uint32_t> met, Contacts& contacts) const;
+    Vector3d shift(const Collider& collider, double left) const
+    {
+        return (frame_end_ - left) * collider.velocity;
+    }
+    Path seen_from(const Collider& collider, const Path& path, double left) const;
+    Contact contact_with(const Piece& piece, const Solid& solid, const Vector3d& place) const;
+    template <class Visit>
+    bool any_piece(const Collider& collider, const Sweep& sweep, const Visit& visit) const;
+    template <class Visit>
+    void visit_piece(const Piece& piece, const Visit& visit) const;
+    void touch(Vector3d& position, double left, std::optional<Piece> met, Contacts& contacts) const;
     Departure leave(Path path, const Elapsed& left, Contacts& contacts, Encounter& encounter) const;
     std::optional<Impact> next_impact(const Path& path, const Elapsed& limit, const Contacts& contacts) const;
 
     std::vector<Collider> all_;
     UniformFields fields_;
     double step_;
+    double frame_end_;
     Elapsed frame_; ///< of one
 };
 

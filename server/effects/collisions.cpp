@@ -19,6 +19,7 @@ void Collisions::reserve(const ClusterTable& clusters, std::size_t member_count)
 void Collisions::fly_members(const UpdateContext& context)
 {
     const ClusterTable& clusters = context.store.clusters;
+    colliders_.set_frame_end(double(context.frame) * context.step);
     marks_.resize(clusters.slot_count());
     for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
         for (std::size_t slot = first; slot < last; ++slot)

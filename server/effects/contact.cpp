@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "effects/path.hpp"
@@ -26,7 +28,8 @@ struct Freedom {
     }
 };
 
-/// The nearest of the accelerations tried that leads into no contact.
+/// The nearest of the accelerations tried that leads into no contact; of some as near, the first, which takes
+/// away the fewest directions.
 class NearestAllowed {
 public:
     NearestAllowed(std::span<const Contact> contacts, std::uint32_t slow, const Vector3d& wanted)
@@ -39,7 +42,7 @@ public:
     {
         const Vector3d left = freedom.keep(wanted_);
         const double lost = (wanted_ - left).squaredNorm();
-        if (lost < least_ && allowed(left, holding)) {
+        if (lost < (1 - rounding) * least_ && allowed(left, holding)) {
             least_ = lost;
             best_ = freedom;
             holding_ = holding;
@@ -50,11 +53,14 @@ public:
     std::uint32_t holding() const { return holding_; } ///< a bit for each contact
 
 private:
+    static constexpr double rounding = 1e-12; ///< of the square of what is lost
+
     bool allowed(const Vector3d& acceleration, std::uint32_t holding) const
     {
-        const double rounding = 1e-14 * wanted_.norm();
+        const double size = wanted_.norm();
         for (std::size_t i = 0; i < contacts_.size(); ++i)
-            if (slow(i) && (holding >> i & 1U) == 0 && contacts_[i].normal.dot(acceleration) < -rounding)
+            if (slow(i) && (holding >> i & 1U) == 0 &&
+                contacts_[i].normal.dot(acceleration) < -contacts_[i].slack * size)
                 return false;
         return true;
     }
@@ -87,47 +93,93 @@ void attempt_all(std::span<const Contact> contacts, NearestAllowed& nearest)
     nearest.attempt({0, {0, 0, 0}}, all);
 }
 
+/// The velocity at which all that hold the particle move together across themselves: the first one's, and for
+/// the others the least that is needed besides.
+Vector3d common_velocity(std::span<const Contact> contacts, std::uint32_t holding)
+{
+    Vector3d velocity{0, 0, 0}, rest{0, 0, 0};
+    Matrix3d normals = Matrix3d::Zero();
+    bool found = false;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if ((holding >> i & 1U) == 0)
+            continue;
+        const Vector3d& normal = contacts[i].normal;
+        if (!std::exchange(found, true))
+            velocity = contacts[i].velocity;
+        rest += normal.dot(contacts[i].velocity - velocity) * normal;
+        normals += normal * normal.transpose();
+    }
+    if (rest.isZero(0))
+        return velocity;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(normals);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = axes.eigenvalues()[axis];
+        const Vector3d along = axes.eigenvectors().col(axis);
+        if (size > 1e-12)
+            velocity += along.dot(rest) / size * along;
+    }
+    return velocity;
+}
+
+/// Whether what is left of a motion keeps to the contact.
+bool keeps_to(const Contact& contact, const Hold& held, const Vector3d& acceleration)
+{
+    return std::abs(contact.normal.dot(held.velocity + held.frame - contact.velocity)) <=
+               contact.slack * (held.velocity + held.frame - contact.velocity).norm() &&
+           std::abs(contact.normal.dot(held.acceleration)) <= contact.slack * acceleration.norm();
+}
+
 } // namespace
 
-const Contact* Contacts::find(std::uint32_t collider) const
+const Contact* Contacts::find(const Piece& piece) const
 {
     const auto found = std::find_if(all_.begin(), all_.begin() + std::ptrdiff_t(count_),
-                                    [&](const Contact& contact) { return contact.collider == collider; });
+                                    [&](const Contact& contact) { return contact.piece == piece; });
     return found == all_.begin() + std::ptrdiff_t(count_) ? nullptr : &*found;
 }
 
 bool bounce(const Contact& contact, double rest_speed, Vector3d& velocity)
 {
-    const double approach = -contact.normal.dot(velocity);
+    const Vector3d seen = velocity - contact.velocity;
+    const double approach = -contact.normal.dot(seen);
     if (approach <= 0)
         return false;
-    Vector3d along = velocity + approach * contact.normal;
+    Vector3d along = seen + approach * contact.normal;
     along -= contact.normal.dot(along) * contact.normal; // else what rounding left could be a fall
     double rebound = contact.restitution * approach;
-    if (rebound <= rest_speed)
+    const bool grazes = contact.leaves(velocity);
+    if (rebound <= rest_speed || grazes)
         rebound = 0;
     const double slip = along.norm();
     const double grip = contact.friction * (approach + rebound);
     velocity = rebound * contact.normal;
     if (slip > grip)
         velocity += (1 - grip / slip) * along;
-    return approach > rest_speed;
+    velocity += contact.velocity;
+    return approach > rest_speed && !grazes;
 }
 
 Hold hold(std::span<Contact> contacts, std::span<const double> rest_speed, const Vector3d& velocity,
-          const Vector3d& acceleration)
+          const Vector3d& acceleration, double drag)
 {
     std::uint32_t slow = 0;
     for (std::size_t i = 0; i < contacts.size(); ++i)
-        slow |= std::uint32_t(contacts[i].normal.dot(velocity) <= rest_speed[i]) << i;
-    NearestAllowed nearest(contacts, slow, acceleration);
+        slow |= std::uint32_t(contacts[i].normal.dot(velocity - contacts[i].velocity) <= rest_speed[i]) << i;
+    const Vector3d pull = acceleration - drag * contacts.front().velocity;
+    NearestAllowed nearest(contacts, slow, pull);
     attempt_all(contacts, nearest);
-    Hold held{nearest.best().keep(velocity), nearest.best().keep(acceleration)};
-    held.pressing = (acceleration - held.acceleration).norm();
+    const std::uint32_t holding = nearest.holding();
+    Hold held{.frame = common_velocity(contacts, holding), .velocity = {}, .acceleration = {}};
+    const Vector3d wanted = acceleration - drag * held.frame;
+    held.velocity = nearest.best().keep(velocity - held.frame);
+    held.acceleration = nearest.best().keep(wanted);
+    held.pressing = (wanted - held.acceleration).norm();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        contacts[i].holds = (nearest.holding() >> i & 1U) != 0;
+        contacts[i].holds = (holding >> i & 1U) != 0;
         if (contacts[i].holds)
             held.friction = std::max(held.friction, contacts[i].friction);
+        else if (nearest.slow(i))
+            contacts[i].holds = keeps_to(contacts[i], held, wanted);
     }
     return held;
 }

@@ -9,18 +9,34 @@
 
 namespace slod {
 
-/// A collider that a particle touches.
-struct Contact {
-    std::uint32_t collider;
-    Vector3d normal; ///< away from the solid
-    double restitution, friction;
-    bool holds = false; ///< the particle stays on it
+/// A collider, or one plate of it.
+struct Piece {
+    std::uint32_t collider, plate = 0;
+
+    friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// Colliders that one particle touches at a time; those beyond the bound are met in the next moment.
+/// A piece that a particle touches.
+struct Contact {
+    Piece piece;
+    Vector3d normal; ///< away from the solid
+    double restitution, friction;
+    double slack = 1e-14;       ///< the angle that the normal may be off by
+    Vector3d velocity{0, 0, 0}; ///< of the collider
+    bool holds = false;         ///< the particle stays on it
+
+    /// Whether a particle leaves it or moves along it, as far as rounding can tell.
+    bool leaves(const Vector3d& v) const
+    {
+        const Vector3d relative = v - velocity;
+        return normal.dot(relative) >= -slack * relative.norm();
+    }
+};
+
+/// Pieces that one particle touches at a time; those beyond the bound are met in the next moment.
 class Contacts {
 public:
-    static constexpr std::size_t most = 8;
+    static constexpr std::size_t most = 16;
 
     void clear() { count_ = 0; }
     void add(const Contact& contact)
@@ -30,28 +46,31 @@ public:
     }
     std::span<Contact> all() { return std::span(all_).first(count_); }
     std::span<const Contact> all() const { return std::span(all_).first(count_); }
-    const Contact* find(std::uint32_t collider) const; ///< null when it is not touched
+    const Contact* find(const Piece& piece) const; ///< null when it is not touched
 
 private:
     std::array<Contact, most> all_;
     std::size_t count_ = 0;
 };
 
-/// An impact, when the particle approaches: the normal velocity is turned round and shrunk by the
-/// restitution, or to 0 when no more than `rest_speed` would be left; the tangential one is slowed by the
-/// impulse of Coulomb friction, until it stops. Returns whether it was more than the end of a rest.
+/// An impact, when the particle approaches, as who moves with the collider sees it: the normal velocity is
+/// turned round and shrunk by the restitution, or to 0 when no more than `rest_speed` would be left; the
+/// tangential one is slowed by the impulse of Coulomb friction, until it stops. Returns whether it was more
+/// than the end of a rest.
 bool bounce(const Contact& contact, double rest_speed, Vector3d& velocity);
 
 /// What holds a particle on the surfaces that it touches slower than it could leave them.
 struct Hold {
-    Vector3d velocity, acceleration; ///< along the surfaces
+    Vector3d frame;                  ///< velocity of the surfaces together
+    Vector3d velocity, acceleration; ///< along the surfaces, as seen at that velocity
     double pressing = 0;             ///< acceleration that they take up
     double friction = 0;             ///< the largest of theirs
 };
 
-/// The acceleration nearest to `acceleration` that leads into none of the contacts whose normal speed is at
-/// most its `rest_speed`; those that it needs for that hold, and the velocity keeps to them.
+/// The acceleration nearest to `acceleration`, which is of what is at rest and under `drag`, that leads into
+/// none of the contacts whose normal speed is at most its `rest_speed`; those that it needs for that hold, as
+/// do those that are along them, and the velocity keeps to them.
 Hold hold(std::span<Contact> contacts, std::span<const double> rest_speed, const Vector3d& velocity,
-          const Vector3d& acceleration);
+          const Vector3d& acceleration, double drag);
 
 } // namespace slod

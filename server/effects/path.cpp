@@ -51,6 +51,21 @@ double crossing(const Descent& descent, const Elapsed& limit)
     return std::max(now.time, 0.0);
 }
 
+/// When a path that goes on from `now` crosses one of the cover's limits; never when it does not by `limit`.
+double uncovered(const Path& path, const Cover& cover, const Elapsed& now, const Elapsed& limit)
+{
+    const Elapsed left(path.drag, limit.time - now.time);
+    const Vector3d velocity = path.velocity_after(now);
+    double first = never;
+    for (int i = 0; i < cover.count; ++i) {
+        const Cover::Limit& each = cover.limits[std::size_t(i)];
+        const Descent descent{each.height, each.inward.dot(velocity), each.inward.dot(path.acceleration),
+                              path.drag};
+        first = std::min(first, now.time + crossing(descent, left));
+    }
+    return first;
+}
+
 } // namespace
 
 Elapsed::Elapsed(double drag, double duration)
@@ -65,12 +80,21 @@ Elapsed::Elapsed(double drag, double duration)
 
 /// A curve strays from its chord by an eighth of its largest second derivative times the time squared; the
 /// second derivative is largest at the start.
+Vector3d Path::stray(const Elapsed& elapsed) const
+{
+    const Vector3d bend = acceleration - drag * velocity;
+    return (0.125 * elapsed.time * elapsed.time) * bend.cwiseAbs();
+}
+
 Box Path::bounds(const Elapsed& elapsed) const
 {
-    const Vector3d end = position_after(elapsed);
-    const Vector3d bend = acceleration - drag * velocity;
-    const Vector3d stray = (0.125 * elapsed.time * elapsed.time) * bend.cwiseAbs();
-    return {position.cwiseMin(end) - stray, position.cwiseMax(end) + stray};
+    const Vector3d end = position_after(elapsed), off = stray(elapsed);
+    return {position.cwiseMin(end) - off, position.cwiseMax(end) + off};
+}
+
+Sweep Path::sweep(const Elapsed& elapsed, double reach) const
+{
+    return {position, position_after(elapsed), stray(elapsed).array() + reach};
 }
 
 double first_contact(const Path& path, const Solid& solid, double reach, const Elapsed& limit, bool leaving)
@@ -85,7 +109,12 @@ double first_contact(const Path& path, const Solid& solid, double reach, const E
             gap = std::max(gap, 0.0);
             speed = std::max(speed, 0.0);
         } else if (gap <= contact_tolerance(position)) {
-            return now.time;
+            const Cover cover = reach == 0 ? solid.cover(position) : Cover{};
+            const double next = cover.count > 0 ? uncovered(path, cover, now, limit) : now.time;
+            if (next == now.time || next > limit.time)
+                return next <= limit.time ? next : never;
+            now = Elapsed(path.drag, next);
+            continue;
         }
         const Descent descent{gap, speed, surface.normal.dot(path.acceleration), path.drag};
         const double next =

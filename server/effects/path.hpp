@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "effects/solid.hpp"
+#include "effects/sweep.hpp"
 
 namespace slod {
 
@@ -31,6 +32,12 @@ struct Path {
 
     /// A box that holds the whole way.
     Box bounds(const Elapsed& elapsed) const;
+
+    /// The way, straightened, with all within `reach` of it.
+    Sweep sweep(const Elapsed& elapsed, double reach) const;
+
+    /// How far the way may be from its chord, along each axis.
+    Vector3d stray(const Elapsed& elapsed) const;
 };
 
 /// No time at all: never.
@@ -40,7 +47,8 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 /// between counts, not the ends: with a convex solid, all within reach of it is on the far side of the plane
 /// across the way to its nearest point, so whoever has not reached that plane has not reached the solid. From
 /// plane to plane the time of contact is approached and not passed. With `leaving`, the path starts on the
-/// surface, on its way out or along, and the question is when it comes back.
+/// surface, on its way out or along, and the question is when it comes back. Where the solid has a cover, it
+/// is not met.
 double first_contact(const Path& path, const Solid& solid, double reach, const Elapsed& limit, bool leaving);
 
 /// Distances below this are rounding: some fifty of the largest coordinate.

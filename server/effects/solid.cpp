@@ -8,7 +8,8 @@ namespace slod {
 namespace {
 
 /// In the order of ColliderShape.
-constexpr std::array kinds{&plane_kind, &sphere_kind, &box_kind, &cone_kind, &capsule_kind};
+constexpr std::array kinds{&plane_kind,   &sphere_kind, &box_kind,        &cone_kind,
+                           &capsule_kind, &mesh_kind,   &heightfield_kind};
 static_assert(kinds.size() == names(ColliderShape{}).size());
 
 } // namespace
@@ -20,7 +21,8 @@ Problems problems(const ColliderSettings& settings)
 
 std::unique_ptr<Solid> make_solid(const ColliderSettings& settings)
 {
-    return kinds[std::size_t(settings.shape)]->make(settings);
+    const SolidKind& kind = *kinds[std::size_t(settings.shape)];
+    return kind.make == nullptr ? nullptr : kind.make(settings);
 }
 
 Box box_around(const Vector3d& a, const Vector3d& b, double reach)

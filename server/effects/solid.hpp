@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "core/settings.hpp"
@@ -15,6 +16,17 @@ struct Surface {
     Vector3d normal; ///< unit vector in which the distance grows fastest; one of them where there are several
 };
 
+/// Around a place where a solid is touched only because another one, which it is joined to, is nearer: all
+/// that is above some planes.
+struct Cover {
+    struct Limit {
+        Vector3d inward; ///< unit vector
+        double height;   ///< of the place above the plane, at least 0
+    };
+    std::array<Limit, 4> limits;
+    int count = 0; ///< 0: there is no such other one
+};
+
 /// A convex solid. A new one takes a file of its own with its SolidKind, and a line in solid.cpp.
 class Solid {
 public:
@@ -24,21 +36,28 @@ public:
 
     /// A box that holds it; infinite where it is.
     virtual Box bounds() const = 0;
+
+    /// At `x`, where it is touched.
+    virtual Cover cover(const Vector3d& /*x*/) const { return {}; }
+
+    /// The angle that the normal at `x`, where it is touched, may be off by for the rounding of places.
+    virtual double slack(const Vector3d& /*x*/) const { return 0; }
 };
 
 /// How solids of one shape come about.
 struct SolidKind {
     /// What is wrong with the settings of its shape, each with the key in front.
     Problems (*problems)(const ColliderSettings& settings);
-    std::unique_ptr<Solid> (*make)(const ColliderSettings& settings);
+    std::unique_ptr<Solid> (*make)(const ColliderSettings& settings); ///< null where it is a sheet
 };
 
-extern const SolidKind plane_kind, sphere_kind, box_kind, cone_kind, capsule_kind;
+extern const SolidKind plane_kind, sphere_kind, box_kind, cone_kind, capsule_kind, mesh_kind,
+    heightfield_kind;
 
 /// What is wrong with a collider's geometry, each with the key in front; empty when nothing is.
 Problems problems(const ColliderSettings& settings);
 
-/// The solid of settings without problems.
+/// The solid of settings without problems; null where they describe a sheet, which is none but many.
 std::unique_ptr<Solid> make_solid(const ColliderSettings& settings);
 
 /// A box around both points and all within `reach` of them.

@@ -6,6 +6,7 @@
 
 #include "sim/simulation.hpp"
 #include "support/clouds.hpp"
+#include "support/meshes.hpp"
 #include "support/random_draws.hpp"
 #include "support/small_scenes.hpp"
 #include "support/solids.hpp"
@@ -50,11 +51,11 @@ protected:
     }
 };
 
-TEST_P(ClosedRoom, LosesNobodyAndLetsNobodyOut)
+void expect_all_stay(const SimulationSettings& settings, bool (*inside)(const Vector3d&, double))
 {
     ParticleSet initial = ball(1000, 0.6, 200, 1, {0, 0, 1.2});
     give_masses(initial, 0.5, 1.5, 2);
-    Simulation simulation(settings(), initial, {});
+    Simulation simulation(settings, initial, {});
     double mass = 0;
     for (const Particle& particle : initial)
         mass += double(particle.mass);
@@ -73,6 +74,23 @@ TEST_P(ClosedRoom, LosesNobodyAndLetsNobodyOut)
         EXPECT_TRUE(inside(now[i].position, 2))
             << "particle " << now[i].id << " at " << now[i].position.transpose();
     }
+}
+
+TEST_P(ClosedRoom, LosesNobodyAndLetsNobodyOut)
+{
+    expect_all_stay(settings(), inside);
+}
+
+// A hollow cube with walls of a millimetre, and a smaller one in its middle.
+TEST_P(ClosedRoom, OfTrianglesLosesNobodyAndLetsNobodyOut)
+{
+    SimulationSettings scene = settings();
+    scene.colliders = {with(sheet(box_mesh({2, 2, 2})), 0.9, 0.1),
+                       with(sheet(box_mesh({0.4, 0.4, 0.4})), 0.9, 0.1)};
+    expect_all_stay(scene, [](const Vector3d& x, double half_side) {
+        const double reach = x.cwiseAbs().maxCoeff();
+        return reach <= half_side && reach >= 0.4;
+    });
 }
 
 TEST_P(ClosedRoom, CountsBirthsAndDeathsExactly)

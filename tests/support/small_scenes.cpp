@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "support/field_tables.hpp"
+#include "support/meshes.hpp"
 #include "support/random_draws.hpp"
 #include "support/solids.hpp"
 
@@ -104,6 +105,25 @@ SmallScene obstacles(const std::string& name, Motion motion)
     SmallScene scene = fountain(name, motion);
     scene.settings.background.max_breadth = 1;
     add_colliders(scene.settings);
+    add_cloud(scene.initial, {.count = 200, .mass = 1e-3, .scale = 0.02}, 3);
+    return scene;
+}
+
+/// A fountain against two hollow cubes, one of which moves, and onto hills.
+SmallScene meshes()
+{
+    SmallScene scene = fountain("meshes", Motion::Flow);
+    scene.settings.background.max_breadth = 1;
+    const auto height = [](std::uint32_t x, std::uint32_t y) { return 0.05 * ((x * 7 + y * 5) % 4); };
+    ColliderSettings hills = with(sheet(grid_mesh(25, 25, 0.25, height)), 0.3, 0.5);
+    hills.position = {-3, -3, -0.3};
+    ColliderSettings cube = with(sheet(box_mesh({0.2, 0.3, 0.1})), 0.8, 0.1), other = cube;
+    cube.position = {0.1, 0, 0.7};
+    other.position = {1.2, 0, 0.6};
+    other.velocity = {-0.5, 0.1, 0};
+    scene.settings.colliders = {hills, cube, other};
+    for (std::size_t i = 0; i < scene.settings.colliders.size(); ++i)
+        scene.settings.colliders[i].name = "mesh" + std::to_string(i);
     add_cloud(scene.initial, {.count = 200, .mass = 1e-3, .scale = 0.02}, 3);
     return scene;
 }
@@ -289,6 +309,7 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(obstacles("obstacles", Motion::Flow));
     scenes.push_back(obstacles("rigid_obstacles", Motion::Rigid));
     scenes.push_back(attracted_obstacles());
+    scenes.push_back(meshes());
     scenes.push_back(fields());
     scenes.push_back(attracted_fields());
     scenes.push_back(winds("winds"));

@@ -38,8 +38,8 @@ struct SmallScene {
 
 /// One scene for every road through the step: motion flow, stream and rigid in self-gravity, unclustered,
 /// in double, by walks of the tree, a fountain, one with regions of interest, one of two kinds falling
-/// onto attracting clouds, three among colliders, two in accelerations of place, three in
-/// winds, one that is kicked, and two with sinks.
+/// onto attracting clouds, three among colliders and one among meshes, two in accelerations of place, three
+/// in winds, one that is kicked, and two with sinks.
 std::vector<SmallScene> small_scenes();
 
 /// The one of that name.

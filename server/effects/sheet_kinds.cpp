@@ -1,0 +1,62 @@
+#include <string>
+
+#include "core/assert.hpp"
+#include "core/number_text.hpp"
+#include "effects/sheet.hpp"
+
+namespace slod {
+namespace {
+
+/// Of a sheet's reach: thinner ones might be passed by rounding, as places of members are held as floats
+/// about their cluster.
+constexpr double thinnest = 1e-6;
+
+/// From the file's coordinates to the scene's.
+Vector3d placed(const ColliderSettings& settings, const Vector3d& vertex)
+{
+    if (settings.shape == ColliderShape::Mesh)
+        return settings.position + settings.scale * vertex;
+    return settings.position + Vector3d(settings.spacing * vertex.x(), settings.spacing * vertex.y(),
+                                        settings.scale * vertex.z());
+}
+
+/// The largest coordinate of any vertex.
+double reach(const ColliderSettings& settings)
+{
+    double reach = 0;
+    for (const Vector3d& vertex : settings.mesh->vertices)
+        reach = std::max(reach, placed(settings, vertex).cwiseAbs().maxCoeff());
+    return reach;
+}
+
+Problems sheet_problems(const ColliderSettings& settings)
+{
+    Problems found;
+    if (settings.file.empty() && !settings.mesh)
+        found.push_back("file = \"\" names none; use that of the surface, such as \"bowl.obj\".");
+    if (settings.scale == 0)
+        found.push_back("scale = 0 leaves no surface; use more than 0.");
+    if (settings.shape == ColliderShape::Heightfield && settings.spacing == 0)
+        found.push_back("spacing = 0 leaves no surface; use more than 0.");
+    const double least = settings.mesh ? thinnest * reach(settings) : 0;
+    if (settings.thickness <= least)
+        found.push_back("thickness = " + number_text(settings.thickness) +
+                        " is no more than what rounding may pass; use more than " + number_text(least) + ".");
+    return found;
+}
+
+} // namespace
+
+std::unique_ptr<Sheet> make_sheet(const ColliderSettings& settings)
+{
+    SLOD_ASSERT(settings.mesh != nullptr);
+    Mesh mesh = *settings.mesh;
+    for (Vector3d& vertex : mesh.vertices)
+        vertex = placed(settings, vertex);
+    return std::make_unique<Sheet>(mesh, settings.thickness);
+}
+
+const SolidKind mesh_kind{sheet_problems, nullptr};
+const SolidKind heightfield_kind{sheet_problems, nullptr};
+
+} // namespace slod
