@@ -41,7 +41,9 @@ Json to_json(const InputLogHeader& header)
             {"settings", header.settings},
             {"input", header.input.string()},
             {"initial_source", header.initial_source},
-            {"initial_hash", hash_text(header.initial_hash)}};
+            {"initial_hash", hash_text(header.initial_hash)},
+            {"folder", header.folder.string()},
+            {"surfaces_hash", hash_text(header.surfaces_hash)}};
 }
 
 InputLogHeader header_from(const Json& line)
@@ -55,7 +57,9 @@ InputLogHeader header_from(const Json& line)
             .settings = line.at("settings"),
             .input = line.at("input").get<std::string>(),
             .initial_source = line.at("initial_source"),
-            .initial_hash = hash_from(line.at("initial_hash"))};
+            .initial_hash = hash_from(line.at("initial_hash")),
+            .folder = line.at("folder").get<std::string>(),
+            .surfaces_hash = hash_from(line.at("surfaces_hash"))};
 }
 
 std::vector<std::string> texts_of(const std::vector<Assignment>& settings)
@@ -188,6 +192,19 @@ std::uint64_t content_hash(const ParticleSet& particles)
         XXH3_64bits_update(state.get(), fields.data(), sizeof fields);
     }
     return XXH3_64bits_digest(state.get());
+}
+
+std::uint64_t content_hash(const std::vector<ColliderSettings>& colliders)
+{
+    std::uint64_t hash = 0;
+    for (const ColliderSettings& collider : colliders) {
+        if (!collider.mesh)
+            continue;
+        const auto& [vertices, triangles] = *collider.mesh;
+        hash = XXH3_64bits_withSeed(vertices.data(), vertices.size() * sizeof vertices.front(), hash);
+        hash = XXH3_64bits_withSeed(triangles.data(), triangles.size() * sizeof triangles.front(), hash);
+    }
+    return hash;
 }
 
 std::string hash_text(std::uint64_t hash)

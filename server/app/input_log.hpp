@@ -12,6 +12,7 @@
 #include "app/line_file.hpp"
 #include "cluster/particles.hpp"
 #include "core/settings.hpp"
+#include "effects/collider_settings.hpp"
 #include "scene/assignments.hpp"
 
 namespace slod {
@@ -25,6 +26,8 @@ struct InputLogHeader {
     std::filesystem::path input;       ///< file of initial conditions that was read, absolute; empty: none
     std::string initial_source;        ///< in words, where the first particles came from
     std::uint64_t initial_hash = 0;    ///< content_hash() of them
+    std::filesystem::path folder{};    ///< of the scene file, absolute
+    std::uint64_t surfaces_hash = 0;   ///< content_hash() of its colliders; 0 where none is from a file
 };
 
 /// What may change between frames.
@@ -82,6 +85,9 @@ private:
 
 /// Hash of particles as delivered: XXH3 over every field, in order.
 std::uint64_t content_hash(const ParticleSet& particles);
+
+/// Hash of what colliders have from files; 0 where that is nothing.
+std::uint64_t content_hash(const std::vector<ColliderSettings>& colliders);
 
 /// A 64-bit hash as 16 hexadecimal digits, as in logs and reports.
 std::string hash_text(std::uint64_t hash);

@@ -19,7 +19,8 @@ std::variant<Job, Problems> load(const std::string& scene_name, const std::files
 {
     std::vector<std::string> overrides = origin.settings;
     overrides.insert(overrides.end(), line.placement.begin(), line.placement.end());
-    auto scene = load_scene({.name = scene_name, .text = origin.scene_text}, overrides);
+    auto scene =
+        load_scene({.name = scene_name, .text = origin.scene_text, .folder = origin.folder}, overrides);
     if (auto* found = std::get_if<Problems>(&scene))
         return std::move(*found);
     auto initial = load_initial(std::get<Scene>(scene), input);
@@ -46,13 +47,16 @@ std::variant<Job, Problems> load_new(const CommandLine& line)
                         .settings = line.settings,
                         .input = {},
                         .initial_source = {},
-                        .initial_hash = 0},
+                        .initial_hash = 0,
+                        .folder = std::filesystem::absolute(line.scene).parent_path(),
+                        .surfaces_hash = 0},
                        line);
     if (auto* job = std::get_if<Job>(&loaded)) {
         if (!job->initial.file.empty())
             job->origin.input = std::filesystem::absolute(job->initial.file);
         job->origin.initial_source = job->initial.source;
         job->origin.initial_hash = content_hash(job->initial.particles);
+        job->origin.surfaces_hash = content_hash(job->scene.simulation.colliders);
     }
     return loaded;
 }
@@ -86,6 +90,9 @@ std::variant<Job, Problems> load_replay(const CommandLine& line)
             return Problems{line.replay.string() +
                             ": the particles at the start are not the recorded ones: now " +
                             job->initial.source + ", then " + log.header.initial_source};
+        if (content_hash(job->scene.simulation.colliders) != log.header.surfaces_hash)
+            return Problems{line.replay.string() +
+                            ": the files of its colliders have changed since; get the recorded ones"};
         job->origin.version = version();
         job->commands = log.commands;
         job->expected = log.end;

@@ -25,15 +25,17 @@ struct Scene {
 
 /// A scene file as it stands. A pipe gives its text but once.
 struct SceneText {
-    std::string name; ///< of the file, for problems
-    std::string text; ///< TOML
+    std::string name;               ///< of the file, for problems
+    std::string text;               ///< TOML
+    std::filesystem::path folder{}; ///< from which the names of other files start; empty: the current one
 };
 
 /// Reads the file's text, which is at most 16 MiB.
 std::variant<SceneText, Problems> read_scene_text(const std::filesystem::path& file);
 
 /// Reads a scene and then the overrides, "table.key=value" with a TOML value, one each. Every problem is
-/// reported, each with file, line, key, value and remedy. Nothing else is read or changed.
+/// reported, each with file, line, key, value and remedy. Files of colliders are read, nothing else is read
+/// or changed.
 std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides);
 
 /// Likewise, from the file.

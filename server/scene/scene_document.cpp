@@ -199,7 +199,7 @@ std::variant<SceneText, Problems> read_scene_text(const std::filesystem::path& f
     }
     if (!why.empty())
         return one_line_each({file.string() + ": " + why});
-    return SceneText{.name = file.string(), .text = std::move(text)};
+    return SceneText{.name = file.string(), .text = std::move(text), .folder = file.parent_path()};
 }
 
 std::optional<toml::table> read_document(const SceneText& scene, const std::vector<std::string>& overrides,

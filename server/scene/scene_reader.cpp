@@ -12,6 +12,7 @@
 #include "scene/scene_check.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/sections.hpp"
+#include "scene/surfaces.hpp"
 
 namespace slod {
 
@@ -37,11 +38,11 @@ public:
         refuse_unknown(root, keys, tables);
     }
 
-    /// Adds the problems of the whole, each with the place of the key that it starts with, unless that key
-    /// is faulty by itself.
-    void check(const Scene& scene, const std::string& file)
+    /// Adds problems of the whole, each with the place of the key that it starts with, unless that key is
+    /// faulty by itself.
+    void add(const Problems& of_scene, const std::string& file)
     {
-        for (const std::string& problem : problems(scene)) {
+        for (const std::string& problem : of_scene) {
             const std::string key = problem.substr(0, problem.find_first_of(" :"));
             if (!faulty_.contains(key))
                 found_.push_back(place(key, file) + ": " + problem);
@@ -160,7 +161,8 @@ std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vecto
     Scene scene;
     SceneReader reader(std::move(found));
     reader.read(*document, scene);
-    reader.check(scene, text.name);
+    reader.add(load_surfaces(scene.simulation.colliders, text.folder), text.name);
+    reader.add(problems(scene), text.name);
     if (!reader.found().empty())
         return one_line_each(std::move(reader.found()));
     return scene;

@@ -46,7 +46,9 @@ protected:
                                  .settings = {"time.step=0.5", "title=\"b\""},
                                  .input = "/data/a b.gadget2",
                                  .initial_source = "a file",
-                                 .initial_hash = 0x00ff'0000'0000'0001};
+                                 .initial_hash = 0x00ff'0000'0000'0001,
+                                 .folder = "/scenes",
+                                 .surfaces_hash = 0x1234'5678'9abc'def0};
     const LoggedCommand change_{.frame = 3,
                                 .kind = InputKind::ChangeRegion,
                                 .region = "core",
@@ -68,6 +70,8 @@ TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
     EXPECT_EQ(log.header.input, header_.input);
     EXPECT_EQ(log.header.initial_source, header_.initial_source);
     EXPECT_EQ(log.header.initial_hash, header_.initial_hash);
+    EXPECT_EQ(log.header.folder, header_.folder);
+    EXPECT_EQ(log.header.surfaces_hash, header_.surfaces_hash);
     ASSERT_EQ(log.commands.size(), 2U);
     EXPECT_EQ(log.commands[0], change_);
     EXPECT_EQ(log.commands[1].kind, InputKind::RemoveRegion);
@@ -211,6 +215,23 @@ TEST_F(InputLogTest, EndsWhereItCannotBeWrittenAndTheRunGoesOn)
     const InputLog log = read();
     EXPECT_EQ(log.commands, std::vector{change_});
     EXPECT_FALSE(log.end);
+}
+
+TEST(ContentHash, OfCollidersChangesWithAnyVertexOrTriangle)
+{
+    const auto hash_of = [](const Mesh& mesh) {
+        ColliderSettings collider{.name = "bowl", .shape = ColliderShape::Mesh};
+        collider.mesh = std::make_shared<const Mesh>(mesh);
+        return content_hash({ColliderSettings{.name = "floor"}, collider});
+    };
+    const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    EXPECT_EQ(hash_of(mesh), hash_of(mesh));
+    Mesh moved = mesh, turned = mesh;
+    moved.vertices[2].z() = 1e-9;
+    turned.triangles[0] = {0, 2, 1};
+    EXPECT_NE(hash_of(moved), hash_of(mesh));
+    EXPECT_NE(hash_of(turned), hash_of(mesh));
+    EXPECT_EQ(content_hash({ColliderSettings{.name = "floor"}}), 0U);
 }
 
 } // namespace

@@ -193,6 +193,8 @@ Scene random_scene(std::uint64_t seed)
     for (SinkSettings& sink : simulation.sinks)
         mend(sink);
     for (ColliderSettings& collider : simulation.colliders) {
+        if (collider.shape == ColliderShape::Mesh || collider.shape == ColliderShape::Heightfield)
+            collider.shape = ColliderShape::Plane; // there is no file of that name
         collider.normal = {0, -0.0, 1};
         collider.radius += 1;
         collider.half_extent.array() += 1;

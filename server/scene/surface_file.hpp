@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <variant>
+
+#include "core/settings.hpp"
+#include "effects/mesh.hpp"
+
+namespace slod {
+
+/// Longest file of a surface that is read, bytes.
+inline constexpr std::uintmax_t max_surface_file_bytes = 256U << 20;
+
+/// Reads the vertices ("v x y z") and faces ("f 1 2 3", "f 1/1/1 ...", counted backwards when negative) of a
+/// Wavefront OBJ file. Faces of more than three vertices are divided into triangles about their first one;
+/// all that has to do with looks, names and groups is passed over. A file that is malformed, too large or
+/// without a face is refused, with file, line, text and remedy.
+std::variant<Mesh, Problems> read_obj(const std::filesystem::path& file);
+
+/// Reads heights over a regular grid: lines of as many numbers each, at least 2 by 2; what follows a # is
+/// passed over. A vertex has its place in the line as x, that of its line as y, from 0 on, and its height as
+/// z; each square is divided along the diagonal from its vertex (0, 0) to (1, 1). Refuses likewise.
+std::variant<Mesh, Problems> read_heights(const std::filesystem::path& file);
+
+} // namespace slod

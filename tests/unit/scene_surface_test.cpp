@@ -1,0 +1,166 @@
+#include "scene_support.hpp"
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scene/surface_file.hpp"
+
+// Files of surfaces: what is read of them, and what is refused, with file, line, text and remedy.
+namespace slod::test {
+namespace {
+
+using Triangles = std::vector<Mesh::Triangle>;
+
+class SurfaceFile : public testing::Test {
+protected:
+    std::variant<Mesh, Problems> obj(const std::string& text) const
+    {
+        return read_obj(folder_.write("s.obj", text));
+    }
+    Mesh mesh(const std::string& text) const
+    {
+        const auto read = obj(text);
+        if (const auto* const found = std::get_if<Problems>(&read))
+            ADD_FAILURE() << found->front();
+        return std::holds_alternative<Mesh>(read) ? std::get<Mesh>(read) : Mesh{};
+    }
+
+    /// Whether the only problem has all the parts.
+    static testing::AssertionResult refused(const std::variant<Mesh, Problems>& read,
+                                            const std::vector<std::string>& parts)
+    {
+        if (const auto* const found = std::get_if<Problems>(&read))
+            return only_says(*found, parts);
+        return testing::AssertionFailure() << "it was taken";
+    }
+
+    const ScratchFolder folder_;
+    const std::string square_ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\n";
+};
+
+TEST_F(SurfaceFile, HasVerticesAndFacesInEveryNotation)
+{
+    const Mesh read = mesh("# a square\r\nmtllib a.mtl\no square\n" + square_ +
+                           "vt 0 0\nvn 0 0 1\n\ns off\nusemtl red\n"
+                           "f 1 2 3\nf 1/1 3/1 4/1 # half\nf 1//1 2//1 4//1\nf -4/1/1 -3/1/1 -1/1/1\n");
+    ASSERT_EQ(read.vertices.size(), 4U);
+    EXPECT_EQ(read.vertices[3], Vector3d(0, 1, 0.5));
+    EXPECT_EQ(read.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {0, 1, 3}}));
+}
+
+TEST_F(SurfaceFile, HasFacesOfManyVerticesDividedAboutTheFirst)
+{
+    EXPECT_EQ(mesh(square_ + "f 1 2 3 4\nv 0 0.5 1e-3 1.0\nf 2 3 4 5 1\n").triangles,
+              (Triangles{{0, 1, 2}, {0, 2, 3}, {1, 2, 3}, {1, 3, 4}, {1, 4, 0}}));
+}
+
+TEST_F(SurfaceFile, IsRefusedWithLineTextAndRemedyWhereItIsMalformed)
+{
+    struct Case {
+        std::string text;
+        std::vector<std::string> parts;
+    };
+    const std::vector<Case> cases{
+        {"v 0 0 0\nv 1 0", {"s.obj:2: \"v 1 0\": a vertex has three coordinates", "get the whole file"}},
+        {square_ + "f 1 2", {"s.obj:5: \"f 1 2\": a face has at least three vertices", "write \"f 1 2 3\""}},
+        {square_ + "f 1 2 5\n", {"s.obj:5: \"f 1 2 5\": there is no vertex 5 yet; use 1 to 4, or -1"}},
+        {square_ + "f 1 2 0\n", {"there is no vertex 0 yet; use 1 to 4"}},
+        {square_ + "f 1 2 -5\n", {"there is no vertex -5 yet"}},
+        {square_ + "f 1 2 99999999999999999999\n",
+         {"\"99999999999999999999\" is no vertex; write its number"}},
+        {square_ + "f 1 2 3.5\n", {"\"3.5\" is no vertex"}},
+        {square_ + "f 1 2 x/1\n", {"\"x/1\" is no vertex"}},
+        {"v 0 nan 0\n", {"s.obj:1:", "\"nan\" is no finite number; write one"}},
+        {"v 0 0 inf\n", {"\"inf\" is no finite number"}},
+        {"v 0 1e999 0\n", {"\"1e999\" is no finite number"}},
+        {"v 0 2e30 0\n", {"\"2e30\" is out of range; use -1e30 to 1e30"}},
+        {"v 0 1,5 0\n", {"\"1,5\" is no finite number"}},
+        {"\n\nsolid cube\n",
+         {"s.obj:3: \"solid cube\": this is no line of a Wavefront OBJ file", "name another file"}},
+        {square_, {"s.obj: there is no face in it; write some"}},
+        {"", {"s.obj: there is no face in it"}},
+        {std::string("\x7f\0ELF\x01\x02", 7), {"s.obj:1:", "no line of a Wavefront OBJ file"}},
+        {std::string((1 << 20) + 1, 'v'), {"line 1 is longer than 1048576 characters; name a file of text"}},
+    };
+    for (const Case& each : cases)
+        EXPECT_TRUE(refused(obj(each.text), each.parts)) << each.text.substr(0, 200);
+}
+
+TEST_F(SurfaceFile, IsRefusedWhereItIsNone)
+{
+    EXPECT_TRUE(refused(read_obj(folder_.path() / "none.obj"), {"none.obj: there is no such file; check"}));
+    EXPECT_TRUE(refused(read_obj(folder_.path()), {"this is no regular file; name one"}));
+    EXPECT_TRUE(refused(read_obj("/dev/null"), {"this is no regular file"}));
+}
+
+TEST_F(SurfaceFile, IsRefusedWhereItHasMoreThanTheLimit)
+{
+    std::string many;
+    for (std::size_t i = 0; i <= max_mesh_vertices; ++i)
+        many += "v 0 0 0\n";
+    EXPECT_TRUE(refused(obj(many), {"s.obj:1048577:", "more than 1048576 vertices; use a coarser surface"}));
+    std::string face = "f";
+    for (int i = 0; i < 1026; ++i)
+        face += " 1";
+    std::string faces = "v 0 0 0\n";
+    for (std::size_t i = 0; i < max_mesh_triangles / 1024 + 1; ++i)
+        faces += face + "\n";
+    EXPECT_TRUE(refused(obj(faces), {"s.obj:2050:", "more than 2097152 triangles; use a coarser surface"}));
+}
+
+TEST_F(SurfaceFile, HasHeightsOverAGrid)
+{
+    const auto read = read_heights(folder_.write("s.txt", "# two lines\n0 1 2.5\n\n-1 0 1e-3\n"));
+    ASSERT_TRUE(std::holds_alternative<Mesh>(read));
+    const Mesh& surface = std::get<Mesh>(read);
+    ASSERT_EQ(surface.vertices.size(), 6U);
+    EXPECT_EQ(surface.vertices[2], Vector3d(2, 0, 2.5));
+    EXPECT_EQ(surface.vertices[3], Vector3d(0, 1, -1));
+    EXPECT_EQ(surface.triangles, (Triangles{{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}));
+    const auto heights = [&](const std::string& text) { return read_heights(folder_.write("s.txt", text)); };
+    EXPECT_TRUE(refused(heights("0 1\n2\n"), {"s.txt:2: \"2\": 1 heights where the lines before have 2"}));
+    EXPECT_TRUE(
+        refused(heights("0 1 2\n"), {"s.txt: 1 lines of 3 heights make no surface; give at least 2"}));
+    EXPECT_TRUE(refused(heights("0\n1\n"), {"2 lines of 1 heights make no surface"}));
+    EXPECT_TRUE(refused(heights(""), {"0 lines of 0 heights"}));
+    EXPECT_TRUE(refused(heights("0 1\n2 nan\n"), {"s.txt:2:", "\"nan\" is no finite number"}));
+}
+
+TEST_F(SurfaceFile, OfAColliderStartsFromTheScenesFolder)
+{
+    const std::string text = minimal_scene +
+                             "[[collider]]\nname = \"bowl\"\nshape = \"mesh\"\nfile = \"s.obj\"\n"
+                             "[[collider]]\nname = \"hill\"\nshape = \"heightfield\"\n"
+                             "file = \"s.txt\"\n";
+    mesh(square_ + "f 1 2 3\n");
+    folder_.write("s.txt", "0 1\n2 3\n");
+    const auto loaded = load_scene(folder_.write("s.toml", text), {});
+    ASSERT_TRUE(std::holds_alternative<Scene>(loaded)) << std::get<Problems>(loaded).front();
+    const auto& colliders = std::get<Scene>(loaded).simulation.colliders;
+    ASSERT_TRUE(colliders[0].mesh && colliders[1].mesh);
+    EXPECT_EQ(colliders[0].mesh->triangles.size(), 1U);
+    EXPECT_EQ(colliders[1].mesh->triangles.size(), 2U);
+}
+
+TEST_F(SurfaceFile, OfAColliderIsRefusedWithTheKeysPlace)
+{
+    const auto found = [&](const std::string& keys) {
+        return problems_of(minimal_scene + "[[collider]]\nname = \"bowl\"\nshape = \"mesh\"\n" + keys);
+    };
+    EXPECT_TRUE(only_says(found("file = \"none.obj\"\n"),
+                          {"s.toml:8: collider.0.file = \"none.obj\":", "none.obj: there is no such file"}));
+    EXPECT_TRUE(only_says(found(""), {"s.toml:5: collider.0.file = \"\" names none; use that"}));
+    EXPECT_TRUE(only_says(found("file = 3\n"), {"s.toml:8: collider.0.file = 3 is no string"}));
+}
+
+TEST_F(SurfaceFile, IsNotReadForOtherShapes)
+{
+    const Scene scene = scene_of(minimal_scene + "[[collider]]\nname = \"floor\"\nfile = \"none.obj\"\n");
+    EXPECT_EQ(scene.simulation.colliders.front().mesh, nullptr);
+}
+
+} // namespace
+} // namespace slod::test
