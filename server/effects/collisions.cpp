@@ -13,6 +13,7 @@ void Collisions::reserve(const ClusterTable& clusters, std::size_t member_count)
     marks_.reserve(slots);
     struck_.reserve(slots);
     ending_.reserve(slots);
+    make_room(measured_, member_count);
     grouping_.reserve(member_count, 2 * slots, slots);
 }
 
@@ -109,6 +110,7 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
     ClusterTable& clusters = context.store.clusters;
     grouping_.clear();
     ending_.clear();
+    measured_.clear();
     expired_ = 0;
     for (const Struck& struck : struck_) {
         counts.impacts += struck.impacts;
@@ -122,6 +124,8 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
         return 0;
     end_clusters(tree, ending_, context);
     form_groups_in_order(grouping_, context);
+    for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
+        set_measured(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
     link_where_they_are(tree, grouping_, context);
     return expired_;
 }
@@ -188,6 +192,7 @@ void Collisions::add_group(const ClusterTable& clusters, const Struck& struck, s
         grouping_.place.push_back(grouping_.particles[i].position);
         grouping_.pull.push_back(clusters.columns.acceleration ? float(clusters.pull[slot]) : 0);
     }
+    measured_.push_back(measured(clusters, slot));
     grouping_.groups.push_back({.pool = {clusters.region[slot], clusters.pool[slot]},
                                 .first = first,
                                 .count = end - first,

@@ -6,6 +6,7 @@
 
 #include "effects/air.hpp"
 #include "effects/colliders.hpp"
+#include "effects/measured.hpp"
 #include "tree/grouping.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -86,6 +87,7 @@ private:
     std::vector<std::uint8_t> touching_; ///< by member
     std::vector<ClusterSlot> ending_;
     Grouping grouping_;
+    std::vector<Measured> measured_; ///< by group
     std::uint64_t expired_ = 0;
 };
 

@@ -32,32 +32,6 @@ void Remaking::list_marked(const ClusterTable& clusters)
     members_.resize(total);
 }
 
-Remaking::Measured Remaking::measured(const ClusterTable& clusters, std::size_t slot)
-{
-    Measured measured;
-    if (clusters.columns.acceleration)
-        measured.acceleration = clusters.acceleration[slot];
-    if (clusters.columns.tide)
-        measured.tide = clusters.tide[slot];
-    if (clusters.columns.turning)
-        measured.turning = clusters.turning[slot];
-    if (clusters.columns.variance())
-        measured.variance = clusters.variance[slot];
-    return measured;
-}
-
-void Remaking::write(ClusterTable& clusters, std::size_t slot, const Measured& measured)
-{
-    if (clusters.columns.acceleration)
-        clusters.acceleration[slot] = measured.acceleration;
-    if (clusters.columns.tide)
-        clusters.tide[slot] = measured.tide;
-    if (clusters.columns.turning)
-        clusters.turning[slot] = measured.turning;
-    if (clusters.columns.variance())
-        clusters.variance[slot] = measured.variance;
-}
-
 void Remaking::remake(const Mapped& mapped, const UpdateContext& context)
 {
     const ClusterTable& clusters = context.store.clusters;
@@ -91,7 +65,7 @@ void Remaking::form(SlodTree& tree, const UpdateContext& context)
     end_clusters(tree, ending_, context);
     form_groups_in_order(grouping_, context);
     for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
-        write(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
+        set_measured(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
     link_where_they_are(tree, grouping_, context);
 }
 

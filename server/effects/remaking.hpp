@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "effects/measured.hpp"
 #include "tree/grouping.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -70,17 +71,6 @@ public:
     void form(SlodTree& tree, const UpdateContext& context);
 
 private:
-    /// What was last measured of a cluster. Until the next time it stands for one formed anew where it was,
-    /// of its members or those that are left.
-    struct Measured {
-        Vector3d acceleration{0, 0, 0};
-        Symmetric3 tide{};
-        Vector3d turning{0, 0, 0};
-        double variance = 0;
-    };
-
-    static Measured measured(const ClusterTable& clusters, std::size_t slot);
-    static void write(ClusterTable& clusters, std::size_t slot, const Measured& measured);
     void list_marked(const ClusterTable& clusters);
 
     std::vector<std::uint8_t> marks_; ///< by slot

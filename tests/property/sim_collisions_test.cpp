@@ -212,5 +212,30 @@ TEST(Collisions, FollowTheWindWhenItChanges)
     EXPECT_EQ(simulation.change_settings(settings).size(), 1U) << "colliders stay as the scene began";
 }
 
+// A cluster of two that a spring of acceleration 10 draws onto a floor, in a region for what is accelerated
+// by 5 or more. Where it is formed anew after the impact, that is where it belongs, before forces are
+// evaluated.
+TEST(Collisions, LeaveTheAccelerationThatRegionsAreChosenBy)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_cluster_size = 4;
+    settings.background.max_breadth = 4;
+    settings.fields.of<Spring>() = {{.anchor = {0, 0, -10}}};
+    settings.colliders = {with(plane({0, 0, 0}, {0, 0, 1}), 1, 0)};
+    RegionOfInterest pulled;
+    pulled.name = "pulled";
+    pulled.shape = Shape::Sphere;
+    pulled.radius = 100;
+    pulled.partition = settings.background;
+    pulled.least_acceleration = 5;
+    settings.regions = {pulled};
+    Simulation simulation(settings, {{{1, 1, 0.01}, {0, 0, -3}, 0, 1}, {{1, 1.125, 0.01}, {0, 0, -3}, 1, 1}},
+                          {});
+    const Snapshot& now = simulation.step({.clusters = true});
+    EXPECT_EQ(now.counts.impacts, 2U);
+    for (const std::uint16_t region : now.clusters.region)
+        EXPECT_EQ(region, 1);
+}
+
 } // namespace
 } // namespace slod::test
