@@ -29,23 +29,36 @@ constexpr std::array<std::string_view, 7> names(ColliderShape)
     return {"plane", "sphere", "box", "cone", "capsule", "mesh", "heightfield"};
 }
 
+/// What becomes of a particle that meets a collider.
+enum class OnHit : std::uint8_t {
+    Bounce, ///< it goes on as restitution and friction say
+    Stick,  ///< it stays where it is on the surface for good, and moves with it
+    Kill,   ///< it dies
+};
+
+constexpr std::array<std::string_view, 3> names(OnHit)
+{
+    return {"bounce", "stick", "kill"};
+}
+
 /// Colliders in one scene.
 inline constexpr std::size_t max_colliders = 256;
 
-/// A solid that particles bounce off.
+/// A solid that particles meet.
 struct ColliderSettings {
     std::string name;
     ColliderShape shape = ColliderShape::Plane;
-    Vector3d position{0, 0, 0};         ///< scene length
-    Vector3d normal{0, 0, 1};           ///< of a plane, any length but 0
-    double radius = 1;                  ///< of a sphere, a capsule, the base of a cone, scene length
-    Vector3d half_extent{1, 1, 1};      ///< of a box, scene length
-    Vector3d axis{0, 0, -1};            ///< of a cone or a capsule, with its length, scene length
-    std::string file{};                 ///< of a mesh or a heightfield, in the scene's folder
-    double scale = 1;                   ///< of a mesh, or a heightfield's heights, scene length
-    double spacing = 1;                 ///< of a heightfield's grid, scene length
-    double thickness = 1e-3;            ///< of a mesh or a heightfield, scene length
-    Vector3d velocity{0, 0, 0};         ///< scene length / time
+    Vector3d position{0, 0, 0};    ///< scene length
+    Vector3d normal{0, 0, 1};      ///< of a plane, any length but 0
+    double radius = 1;             ///< of a sphere, a capsule, the base of a cone, scene length
+    Vector3d half_extent{1, 1, 1}; ///< of a box, scene length
+    Vector3d axis{0, 0, -1};       ///< of a cone or a capsule, with its length, scene length
+    std::string file{};            ///< of a mesh or a heightfield, in the scene's folder
+    double scale = 1;              ///< of a mesh, or a heightfield's heights, scene length
+    double spacing = 1;            ///< of a heightfield's grid, scene length
+    double thickness = 1e-3;       ///< of a mesh or a heightfield, scene length
+    Vector3d velocity{0, 0, 0};    ///< scene length / time
+    OnHit on_hit = OnHit::Bounce;
     double restitution = 0.5;           ///< speed along the normal after an impact, as a share of that before
     double friction = 0;                ///< Coulomb's coefficient
     std::shared_ptr<const Mesh> mesh{}; ///< what is in the file, of all copies of these settings
@@ -85,6 +98,8 @@ void for_each_field(ColliderSettings& collider, Visitor&& visit)
     visit(Field{"thickness", "length", "Of a mesh or a heightfield, half of it on each side.", 0, 1e30},
           collider.thickness);
     visit(Field{"velocity", "length/time", "Of uniform motion.", -1e30, 1e30}, collider.velocity);
+    visit(Field{"on_hit", "", "What becomes of a particle: it bounces, stays there for good, or dies."},
+          collider.on_hit);
     visit(Field{"restitution", "", "Speed away from the surface by speed towards it: 0 stays, 1 is elastic.",
                 0, 1},
           collider.restitution);

@@ -1,7 +1,6 @@
 #include "effects/colliders.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +10,10 @@ namespace {
 /// Speed at which a particle comes to rest on a surface, in units of what pulls it there times the frame:
 /// flights that take a fifth of a frame. Four or five of them fit into one.
 constexpr double rest_of_pull = 0.1;
+
+/// What is so near to a collider that holds it for good is on it, by the largest coordinate: members of a
+/// cluster are held as floats, some 6e-8 of its size off, and would come loose.
+constexpr double clinging = 1e-6;
 
 bool meet(const Box& a, const Box& b)
 {
@@ -44,8 +47,8 @@ Colliders::Colliders(const std::vector<ColliderSettings>& settings, const Unifor
         std::unique_ptr<Solid> solid = make_solid(each);
         std::unique_ptr<Sheet> sheet = solid ? nullptr : make_sheet(each);
         const Box bounds = solid ? solid->bounds() : sheet->bounds();
-        all_.push_back(
-            {std::move(solid), std::move(sheet), bounds, each.restitution, each.friction, each.velocity});
+        all_.push_back({std::move(solid), std::move(sheet), bounds, each.restitution, each.friction,
+                        each.velocity, each.on_hit});
     }
 }
 
@@ -53,6 +56,30 @@ void Colliders::set_fields(const UniformFields& fields)
 {
     fields_ = fields;
     frame_ = Elapsed(fields.drag, step_);
+}
+
+double Colliders::touching_distance(const Collider& collider, const Vector3d& position)
+{
+    return collider.on_hit == OnHit::Stick ? clinging * position.cwiseAbs().maxCoeff()
+                                           : contact_tolerance(position);
+}
+
+/// Whether the flight is over on what it has come to: the particle dies, or is carried along for the time
+/// that is left.
+bool Colliders::ends(const Contacts& contacts, bool met, double left, Vector3d& position, Vector3d& velocity,
+                     Encounter& encounter)
+{
+    encounter.killed = contacts.find(OnHit::Kill) != nullptr;
+    const Contact* const holder = contacts.find(OnHit::Stick);
+    if (!encounter.killed && holder == nullptr)
+        return false;
+    encounter.touched = true;
+    encounter.impacts += met || encounter.killed ? 1 : 0;
+    if (encounter.killed)
+        return true;
+    velocity = holder->velocity;
+    position += left * velocity;
+    return true;
 }
 
 /// As it is for who moves with the collider and has its place at time 0, so long before the frame's end.
@@ -94,9 +121,10 @@ bool Colliders::may_touch(const Vector3d& position, const Vector3d& velocity, do
     const Elapsed whole = elapsed(time, fields.drag);
     return std::any_of(all_.begin(), all_.end(), [&](const Collider& collider) {
         const Path seen = seen_from(collider, path, time);
-        const Sweep sweep = seen.sweep(whole, reach + contact_tolerance(position));
-        return any_piece(collider, sweep, [&](const Piece&, const Solid& solid) {
-            return first_contact(seen, solid, reach, whole, false) <= time;
+        const double near = touching_distance(collider, position);
+        const double within = collider.on_hit == OnHit::Stick ? reach + near : reach;
+        return any_piece(collider, seen.sweep(whole, reach + near), [&](const Piece&, const Solid& solid) {
+            return first_contact(seen, solid, within, whole, false) <= time;
         });
     });
 }
@@ -117,6 +145,8 @@ Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, doub
             encounter.cut_off = true;
             return encounter;
         }
+        if (ends(contacts, met.has_value(), time, position, velocity, encounter))
+            return encounter;
         const Elapsed left = elapsed(time, fields.drag);
         const Departure departure = leave({position, velocity, pull, fields.drag}, left, contacts, encounter);
         bounces += met && departure.bounces ? 1 : 0;
@@ -141,6 +171,7 @@ Contact Colliders::contact_with(const Piece& piece, const Solid& solid, const Ve
     Contact contact{piece, solid.surface(place).normal, collider.restitution, collider.friction};
     contact.slack += solid.slack(place);
     contact.velocity = collider.velocity;
+    contact.on_hit = collider.on_hit;
     return contact;
 }
 
@@ -152,9 +183,11 @@ void Colliders::touch(Vector3d& position, double left, std::optional<Piece> met,
     const double tolerance = contact_tolerance(position);
     bool moved = true;
     const auto look_at = [&](const Piece& piece, const Solid& solid) {
-        const Vector3d place = position - shift(all_[piece.collider], left);
+        const Collider& collider = all_[piece.collider];
+        const Vector3d place = position - shift(collider, left);
         const Surface surface = solid.surface(place);
-        if (met != piece && (surface.distance > tolerance || solid.cover(place).count > 0))
+        if (met != piece &&
+            (surface.distance > touching_distance(collider, position) || solid.cover(place).count > 0))
             return false;
         contacts.add(contact_with(piece, solid, place));
         if (std::abs(surface.distance) > tolerance) {
@@ -168,7 +201,8 @@ void Colliders::touch(Vector3d& position, double left, std::optional<Piece> met,
         contacts.clear();
         for (const Collider& collider : all_) {
             const Vector3d place = position - shift(collider, left);
-            any_piece(collider, {place, place, Vector3d::Constant(tolerance)}, look_at);
+            const double near = touching_distance(collider, position);
+            any_piece(collider, {place, place, Vector3d::Constant(near)}, look_at);
         }
         if (met && contacts.find(*met) == nullptr)
             visit_piece(*met, look_at);
@@ -181,17 +215,15 @@ Colliders::Departure Colliders::leave(Path path, const Elapsed& left, Contacts& 
 {
     if (contacts.all().empty())
         return {path, false, false, {0, 0, 0}};
-    std::array<double, Contacts::most> rest_speed{};
-    std::size_t touched = 0;
+    const double rest_time = rest_of_pull * step_;
     std::uint32_t impacts = 0;
     for (const Contact& contact : contacts.all()) {
         const Vector3d seen = path.acceleration - path.drag * contact.velocity;
-        rest_speed[touched] = rest_of_pull * std::max(0.0, -contact.normal.dot(seen)) * step_;
-        impacts += bounce(contact, rest_speed[touched], path.velocity) ? 1 : 0;
-        ++touched;
+        const double rest_speed = rest_time * std::max(0.0, -contact.normal.dot(seen));
+        impacts += bounce(contact, rest_speed, path.velocity) ? 1 : 0;
     }
     encounter.impacts += impacts;
-    const Hold held = hold(contacts.all(), rest_speed, path.velocity, path.acceleration, path.drag);
+    const Hold held = hold(contacts.all(), rest_time, path.velocity, path.acceleration, path.drag);
     path.velocity = held.velocity;
     path.acceleration = held.acceleration;
     const bool stops = brake(held, left, path);

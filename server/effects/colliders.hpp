@@ -41,6 +41,7 @@ public:
         bool touched = false;
         std::uint32_t impacts = 0;
         bool cut_off = false; ///< it met more surfaces than a particle may at once
+        bool killed = false;  ///< where it was, the flight has ended
     };
 
     /// Moves a particle by `time`, up to the frame's end, exactly from impact to impact, with `acceleration`
@@ -65,6 +66,7 @@ private:
         Box bounds;
         double restitution, friction;
         Vector3d velocity;
+        OnHit on_hit;
     };
 
     /// Which piece is met, and when.
@@ -89,6 +91,9 @@ private:
     {
         return (frame_end_ - left) * collider.velocity;
     }
+    static double touching_distance(const Collider& collider, const Vector3d& position);
+    static bool ends(const Contacts& contacts, bool met, double left, Vector3d& position, Vector3d& velocity,
+                     Encounter& encounter);
     Path seen_from(const Collider& collider, const Path& path, double left) const;
     Contact contact_with(const Piece& piece, const Solid& solid, const Vector3d& place) const;
     template <class Visit>

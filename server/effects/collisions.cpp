@@ -9,7 +9,7 @@ void Collisions::reserve(const ClusterTable& clusters, std::size_t member_count)
 {
     const std::size_t slots = clusters.slot_capacity();
     make_room(members_, member_count);
-    make_room(touching_, member_count);
+    make_room(fates_, member_count);
     marks_.reserve(slots);
     struck_.reserve(slots);
     ending_.reserve(slots);
@@ -39,7 +39,7 @@ void Collisions::fly_members(const UpdateContext& context)
         total += clusters.count[slot];
     }
     members_.resize(total);
-    touching_.resize(total);
+    fates_.resize(total);
     for_each_block(struck_.size(), 4, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             fly(context, struck_[i]);
@@ -97,11 +97,12 @@ void Collisions::fly(const UpdateContext& context, Struck& struck)
         member.velocity -= half_kick;
         const auto met = colliders_.fly(member.position, member.velocity, context.step, acceleration, fields);
         member.velocity -= half_kick;
-        touching_[struck.first + i] = met.touched ? 1 : 0;
+        fates_[struck.first + i] = met.killed ? Fate::Killed : met.touched ? Fate::Touching : Fate::Free;
         struck.touched = struck.touched || met.touched;
         struck.moved = struck.moved || member.position != position || member.velocity != velocity;
         struck.impacts += met.impacts;
         struck.cut_off += met.cut_off ? 1 : 0;
+        struck.killed += met.killed ? 1 : 0;
     }
 }
 
@@ -111,10 +112,11 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
     grouping_.clear();
     ending_.clear();
     measured_.clear();
-    expired_ = 0;
+    left_out_ = 0;
     for (const Struck& struck : struck_) {
         counts.impacts += struck.impacts;
         counts.impacts_cut_off += struck.cut_off;
+        counts.killed += struck.killed;
         if (!keep(clusters, struck))
             gather(clusters, struck, context.frame);
     }
@@ -127,7 +129,7 @@ std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context,
     for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
         set_measured(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
     link_where_they_are(tree, grouping_, context);
-    return expired_;
+    return left_out_;
 }
 
 /// Whether the cluster goes on, which it does where its map carries the members to where they are, where they
@@ -137,6 +139,8 @@ bool Collisions::keep(ClusterTable& clusters, const Struck& struck) const
     const std::size_t slot = struck.slot.index;
     const bool withheld = clusters.columns.withheld && !clusters.withheld[slot].isZero(0);
     const bool carried = rules_.carries_members || struck.count == 1;
+    if (struck.killed > 0)
+        return false;
     const bool free = carried && !struck.touched && !withheld;
     if (free)
         return true;
@@ -162,14 +166,15 @@ bool Collisions::keep(ClusterTable& clusters, const Struck& struck) const
 void Collisions::gather(const ClusterTable& clusters, const Struck& struck, std::uint64_t frame)
 {
     ending_.push_back(struck.slot);
-    for (const bool touching : {false, true}) {
+    left_out_ += struck.killed;
+    for (const Fate fate : {Fate::Free, Fate::Touching}) {
         const auto first = std::uint32_t(grouping_.particles.size());
-        const bool together = touching ? rules_.exact : rules_.carries_members;
+        const bool together = fate == Fate::Touching ? rules_.exact : rules_.carries_members;
         for (std::uint32_t i = struck.first; i < struck.first + struck.count; ++i) {
-            if ((touching_[i] != 0) != touching)
+            if (fates_[i] != fate)
                 continue;
             if (members_[i].expiry_frame <= frame) {
-                ++expired_;
+                ++left_out_;
                 continue;
             }
             grouping_.particles.push_back(members_[i]);

@@ -18,6 +18,7 @@ struct CollisionCounts {
     std::uint64_t taken_apart = 0;     ///< those that ended, and whose members were formed anew
     std::uint64_t impacts = 0;         ///< of particles
     std::uint64_t impacts_cut_off = 0; ///< particles that rest, having met too many surfaces
+    std::uint64_t killed = 0;          ///< particles that died of an impact; those just born are not counted
 };
 
 /// Clusters among colliders. One whose bound may touch a collider on its way through the frame is mapped out
@@ -57,7 +58,8 @@ public:
     void fly_members(const UpdateContext& context);
 
     /// After they have moved: gives the struck ones their members' outcome, the new ones places in the tree.
-    /// Particles that are taken apart and whose time has come are left out; returns how many.
+    /// Those that were killed are left out, and of what is taken apart those whose time has come; returns how
+    /// many.
     std::uint64_t put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts);
 
 private:
@@ -68,8 +70,10 @@ private:
         Vector3d position, velocity;
         bool touched = false; ///< any of them
         bool moved = false;   ///< any of them
-        std::uint64_t impacts = 0, cut_off = 0;
+        std::uint64_t impacts = 0, cut_off = 0, killed = 0;
     };
+
+    enum class Fate : std::uint8_t { Free, Touching, Killed };
 
     bool may_be_struck(const UpdateContext& context, std::size_t slot) const;
     Air::Felt felt_by(const UpdateContext& context, std::size_t slot) const;
@@ -81,14 +85,14 @@ private:
     Colliders colliders_;
     Rules rules_;
     const Air* air_;
-    std::vector<std::uint8_t> marks_;    ///< by slot: struck
-    std::vector<Struck> struck_;         ///< in order of slots
-    std::vector<Particle> members_;      ///< of the struck, mapped out
-    std::vector<std::uint8_t> touching_; ///< by member
+    std::vector<std::uint8_t> marks_; ///< by slot: struck
+    std::vector<Struck> struck_;      ///< in order of slots
+    std::vector<Particle> members_;   ///< of the struck, mapped out
+    std::vector<Fate> fates_;         ///< by member
     std::vector<ClusterSlot> ending_;
     Grouping grouping_;
     std::vector<Measured> measured_; ///< by group
-    std::uint64_t expired_ = 0;
+    std::uint64_t left_out_ = 0;
 };
 
 } // namespace slod

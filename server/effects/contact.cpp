@@ -28,71 +28,6 @@ struct Freedom {
     }
 };
 
-/// The nearest of the accelerations tried that leads into no contact; of some as near, the first, which takes
-/// away the fewest directions.
-class NearestAllowed {
-public:
-    NearestAllowed(std::span<const Contact> contacts, std::uint32_t slow, const Vector3d& wanted)
-        : contacts_(contacts), slow_(slow), wanted_(wanted)
-    {}
-
-    bool slow(std::size_t contact) const { return (slow_ >> contact & 1U) != 0; }
-
-    void attempt(const Freedom& freedom, std::uint32_t holding)
-    {
-        const Vector3d left = freedom.keep(wanted_);
-        const double lost = (wanted_ - left).squaredNorm();
-        if (lost < (1 - rounding) * least_ && allowed(left, holding)) {
-            least_ = lost;
-            best_ = freedom;
-            holding_ = holding;
-        }
-    }
-
-    const Freedom& best() const { return best_; }
-    std::uint32_t holding() const { return holding_; } ///< a bit for each contact
-
-private:
-    static constexpr double rounding = 1e-12; ///< of the square of what is lost
-
-    bool allowed(const Vector3d& acceleration, std::uint32_t holding) const
-    {
-        const double size = wanted_.norm();
-        for (std::size_t i = 0; i < contacts_.size(); ++i)
-            if (slow(i) && (holding >> i & 1U) == 0 &&
-                contacts_[i].normal.dot(acceleration) < -contacts_[i].slack * size)
-                return false;
-        return true;
-    }
-
-    std::span<const Contact> contacts_;
-    std::uint32_t slow_;
-    Vector3d wanted_;
-    double least_ = never;
-    Freedom best_;
-    std::uint32_t holding_ = 0;
-};
-
-/// Tries none, each, each two and all of the contacts.
-void attempt_all(std::span<const Contact> contacts, NearestAllowed& nearest)
-{
-    std::uint32_t all = 0;
-    nearest.attempt({}, 0);
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-        if (!nearest.slow(i))
-            continue;
-        all |= 1U << i;
-        nearest.attempt({2, contacts[i].normal}, 1U << i);
-        for (std::size_t j = 0; j < i; ++j) {
-            const Vector3d edge = contacts[i].normal.cross(contacts[j].normal);
-            const double sine = edge.norm();
-            if (nearest.slow(j) && sine > 1e-12) // else they are one surface
-                nearest.attempt({1, edge / sine}, 1U << i | 1U << j);
-        }
-    }
-    nearest.attempt({0, {0, 0, 0}}, all);
-}
-
 /// The velocity at which all that hold the particle move together across themselves: the first one's, and for
 /// the others the least that is needed besides.
 Vector3d common_velocity(std::span<const Contact> contacts, std::uint32_t holding)
@@ -121,6 +56,92 @@ Vector3d common_velocity(std::span<const Contact> contacts, std::uint32_t holdin
     return velocity;
 }
 
+/// The nearest of the accelerations tried that leads into no contact; of some as near, the first, which takes
+/// away the fewest directions.
+class NearestAllowed {
+public:
+    struct Motion {
+        Vector3d velocity, acceleration;
+        double rest_time; ///< a flight that its normal speed ends within twice this is none
+    };
+
+    NearestAllowed(std::span<const Contact> contacts, const Motion& wanted)
+        : contacts_(contacts), wanted_(wanted)
+    {
+        for (std::size_t i = 0; i < contacts.size(); ++i)
+            slow_ |= std::uint32_t(returns(contacts[i], wanted.velocity, wanted.acceleration)) << i;
+    }
+
+    bool slow(std::size_t contact) const { return (slow_ >> contact & 1U) != 0; }
+
+    void attempt(const Freedom& freedom, std::uint32_t holding)
+    {
+        const Vector3d left = freedom.keep(wanted_.acceleration);
+        const double lost = (wanted_.acceleration - left).squaredNorm();
+        if (lost < (1 - rounding) * least_ && allowed(freedom, left, holding)) {
+            least_ = lost;
+            best_ = freedom;
+            holding_ = holding;
+        }
+    }
+
+    const Freedom& best() const { return best_; }
+    std::uint32_t holding() const { return holding_; } ///< a bit for each contact
+
+private:
+    static constexpr double rounding = 1e-12; ///< of the square of what is lost
+
+    /// Whether such a motion is back at once.
+    bool returns(const Contact& contact, const Vector3d& velocity, const Vector3d& acceleration) const
+    {
+        const double pull = std::max(0.0, -contact.normal.dot(acceleration));
+        return contact.normal.dot(velocity - contact.velocity) <= wanted_.rest_time * pull;
+    }
+
+    bool allowed(const Freedom& freedom, const Vector3d& left, std::uint32_t holding) const
+    {
+        const Vector3d frame = common_velocity(contacts_, holding);
+        const Vector3d velocity = freedom.keep(wanted_.velocity - frame) + frame;
+        const double size = wanted_.acceleration.norm();
+        for (std::size_t i = 0; i < contacts_.size(); ++i) {
+            const Contact& contact = contacts_[i];
+            if (!slow(i) || (holding >> i & 1U) != 0)
+                continue;
+            const bool pulled = contact.normal.dot(left) < -contact.slack * size;
+            if ((pulled && returns(contact, velocity, left)) || !contact.leaves(velocity))
+                return false;
+        }
+        return true;
+    }
+
+    std::span<const Contact> contacts_;
+    Motion wanted_;
+    std::uint32_t slow_ = 0;
+    double least_ = never;
+    Freedom best_;
+    std::uint32_t holding_ = 0;
+};
+
+/// Tries none, each, each two and all of the contacts.
+void attempt_all(std::span<const Contact> contacts, NearestAllowed& nearest)
+{
+    std::uint32_t all = 0;
+    nearest.attempt({}, 0);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (!nearest.slow(i))
+            continue;
+        all |= 1U << i;
+        nearest.attempt({2, contacts[i].normal}, 1U << i);
+        for (std::size_t j = 0; j < i; ++j) {
+            const Vector3d edge = contacts[i].normal.cross(contacts[j].normal);
+            const double sine = edge.norm();
+            if (nearest.slow(j) && sine > 1e-12) // else they are one surface
+                nearest.attempt({1, edge / sine}, 1U << i | 1U << j);
+        }
+    }
+    nearest.attempt({0, {0, 0, 0}}, all);
+}
+
 /// Whether what is left of a motion keeps to the contact.
 bool keeps_to(const Contact& contact, const Hold& held, const Vector3d& acceleration)
 {
@@ -135,6 +156,13 @@ const Contact* Contacts::find(const Piece& piece) const
 {
     const auto found = std::find_if(all_.begin(), all_.begin() + std::ptrdiff_t(count_),
                                     [&](const Contact& contact) { return contact.piece == piece; });
+    return found == all_.begin() + std::ptrdiff_t(count_) ? nullptr : &*found;
+}
+
+const Contact* Contacts::find(OnHit on_hit) const
+{
+    const auto found = std::find_if(all_.begin(), all_.begin() + std::ptrdiff_t(count_),
+                                    [&](const Contact& contact) { return contact.on_hit == on_hit; });
     return found == all_.begin() + std::ptrdiff_t(count_) ? nullptr : &*found;
 }
 
@@ -159,14 +187,11 @@ bool bounce(const Contact& contact, double rest_speed, Vector3d& velocity)
     return approach > rest_speed && !grazes;
 }
 
-Hold hold(std::span<Contact> contacts, std::span<const double> rest_speed, const Vector3d& velocity,
+Hold hold(std::span<Contact> contacts, double rest_time, const Vector3d& velocity,
           const Vector3d& acceleration, double drag)
 {
-    std::uint32_t slow = 0;
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-        slow |= std::uint32_t(contacts[i].normal.dot(velocity - contacts[i].velocity) <= rest_speed[i]) << i;
     const Vector3d pull = acceleration - drag * contacts.front().velocity;
-    NearestAllowed nearest(contacts, slow, pull);
+    NearestAllowed nearest(contacts, {velocity, pull, rest_time});
     attempt_all(contacts, nearest);
     const std::uint32_t holding = nearest.holding();
     Hold held{.frame = common_velocity(contacts, holding), .velocity = {}, .acceleration = {}};

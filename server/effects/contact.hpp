@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/vectors.hpp"
+#include "effects/collider_settings.hpp"
 
 namespace slod {
 
@@ -23,7 +24,8 @@ struct Contact {
     double restitution, friction;
     double slack = 1e-14;       ///< the angle that the normal may be off by
     Vector3d velocity{0, 0, 0}; ///< of the collider
-    bool holds = false;         ///< the particle stays on it
+    OnHit on_hit = OnHit::Bounce;
+    bool holds = false; ///< the particle stays on it
 
     /// Whether a particle leaves it or moves along it, as far as rounding can tell.
     bool leaves(const Vector3d& v) const
@@ -47,6 +49,7 @@ public:
     std::span<Contact> all() { return std::span(all_).first(count_); }
     std::span<const Contact> all() const { return std::span(all_).first(count_); }
     const Contact* find(const Piece& piece) const; ///< null when it is not touched
+    const Contact* find(OnHit on_hit) const;       ///< the first of a collider that does so; null without
 
 private:
     std::array<Contact, most> all_;
@@ -68,9 +71,10 @@ struct Hold {
 };
 
 /// The acceleration nearest to `acceleration`, which is of what is at rest and under `drag`, that leads into
-/// none of the contacts whose normal speed is at most its `rest_speed`; those that it needs for that hold, as
-/// do those that are along them, and the velocity keeps to them.
-Hold hold(std::span<Contact> contacts, std::span<const double> rest_speed, const Vector3d& velocity,
+/// none of the contacts, unless it is away from one at a normal speed that is more than the pull back to it
+/// gives in `rest_time`. Those that it needs for that hold, as do those that are along them, and the velocity
+/// keeps to them.
+Hold hold(std::span<Contact> contacts, double rest_time, const Vector3d& velocity,
           const Vector3d& acceleration, double drag);
 
 } // namespace slod

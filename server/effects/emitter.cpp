@@ -63,10 +63,10 @@ std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformField
             Vector3d& velocity = born.particle.velocity;
             const UniformFields felt =
                 air == nullptr ? fields : air->felt(position, velocity, end - born.age, born.age).fields;
-            if (colliders != nullptr)
-                colliders->fly(position, velocity, born.age, {0, 0, 0}, felt);
-            else
+            if (colliders == nullptr)
                 felt.over(born.age).apply(position, velocity);
+            else if (colliders->fly(position, velocity, born.age, {0, 0, 0}, felt).killed)
+                born.particle.expiry_frame = std::uint32_t(frame);
         }
     });
     std::erase_if(newborns, [&](const Newborn& born) { return born.particle.expiry_frame <= frame; });

@@ -50,6 +50,7 @@ inline constexpr std::array<EventCount, 26> event_counts{{
     {"taken_apart", &FrameCounts::taken_apart},
     {"impacts", &FrameCounts::impacts},
     {"impacts_cut_off", &FrameCounts::impacts_cut_off},
+    {"killed", &FrameCounts::killed},
     {"kicked", &FrameCounts::kicked},
     {"due_pools", &FrameCounts::due_pools},
     {"reformed_members", &FrameCounts::reformed_members},

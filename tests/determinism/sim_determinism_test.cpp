@@ -112,7 +112,7 @@ const std::map<std::string, std::uint64_t> pinned{
     {"obstacles", 0x9c1b61823de3b180},
     {"rigid_obstacles", 0x2d839d7cad918512},
     {"attracted_obstacles", 0x3649aae0125f7a43},
-    {"meshes", 0x9d0f1a57739c79b7},
+    {"meshes", 0x7954a8742071390c},
     {"fields", 0x4487f380c658f51d},
     {"attracted_fields", 0x4415edcf412ea419},
     {"winds", 0x803d3ba38c6ae6bb},

@@ -109,7 +109,7 @@ SmallScene obstacles(const std::string& name, Motion motion)
     return scene;
 }
 
-/// A fountain against two hollow cubes, one of which moves, and onto hills.
+/// A fountain against two hollow cubes, one that kills and one that moves and holds, and onto hills.
 SmallScene meshes()
 {
     SmallScene scene = fountain("meshes", Motion::Flow);
@@ -119,8 +119,10 @@ SmallScene meshes()
     hills.position = {-3, -3, -0.3};
     ColliderSettings cube = with(sheet(box_mesh({0.2, 0.3, 0.1})), 0.8, 0.1), other = cube;
     cube.position = {0.1, 0, 0.7};
+    cube.on_hit = OnHit::Kill;
     other.position = {1.2, 0, 0.6};
     other.velocity = {-0.5, 0.1, 0};
+    other.on_hit = OnHit::Stick;
     scene.settings.colliders = {hills, cube, other};
     for (std::size_t i = 0; i < scene.settings.colliders.size(); ++i)
         scene.settings.colliders[i].name = "mesh" + std::to_string(i);

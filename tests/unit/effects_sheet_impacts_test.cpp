@@ -278,6 +278,41 @@ TEST(SheetWithAValley, HoldsParticlesAtItsSeam)
     }
 }
 
+// Through a trough whose floor turns by 1.35 in forty seams. Each takes the part of the velocity that leads
+// into the next floor, 1 - cos^2 of the angle of the energy: a share of 1.35^2 / 40 = 0.046 in all.
+TEST(SheetWithAValley, LetsWhatSlidesPassFromSlopeToSlope)
+{
+    const Mesh trough = grid_mesh(41, 3, 0.05, [](auto x, auto) { return 0.4 * std::pow(0.05 * x - 1, 2); });
+    const Colliders colliders({with(sheet(trough, 0.01), 0, 0)}, falling(), frame);
+    State state{{0.1, 0.04, 0.4}, {0, 0, 0}};
+    double farthest = 0;
+    for (int step = 0; step < 120; ++step) {
+        ASSERT_FALSE(colliders.fly(state.position, state.velocity, frame).cut_off) << "frame " << step;
+        farthest = std::max(farthest, state.position.x());
+    }
+    // It falls 0.07 and loses most of what that gives across the slope: 0.07 sin^2 of 0.62 is left. Its
+    // height of 0.32 above the bottom is 0.34 then, and 0.32 on the other side.
+    EXPECT_GE(farthest, 1 + std::sqrt(0.31 / 0.4));
+    EXPECT_LE(farthest, 1 + std::sqrt(0.35 / 0.4));
+}
+
+// Uphill over a seam so slight that it lifts more slowly than what comes to rest.
+TEST(SheetWithAValley, LetsWhatSlidesUphillPassASlightSeam)
+{
+    for (const double turn : {1e-7, 1e-5, 1e-3}) {
+        const Mesh slopes = grid_mesh(3, 3, 1, [&](auto x, auto) { return 0.1 * x + (x > 1 ? turn : 0); });
+        const Colliders colliders({with(sheet(slopes, 0.01), 0, 0)}, falling(), frame);
+        const double lift = 0.005 * std::sqrt(1 + 0.1 * 0.1);
+        State state{{0.5, 0.8, 0.05 + lift}, 1.5 * Vector3d(1, 0.1, 0.1).normalized()};
+        const double before = energy(state);
+        for (int step = 0; step < 40; ++step)
+            ASSERT_FALSE(colliders.fly(state.position, state.velocity, frame).cut_off) << turn;
+        EXPECT_GT(state.position.x(), 1.2) << turn;
+        // The seam takes the square of its angle of an energy of about 1.
+        EXPECT_NEAR(energy(state), before, turn * turn + 1e-10) << turn;
+    }
+}
+
 TEST(ThinSheet, F20_PutsWhatStartsInsideOntoItsNearerSideWithoutSpeed)
 {
     const Colliders colliders({sheet(flat_mesh(5, 5, 1), 0.2)}, {}, frame);
