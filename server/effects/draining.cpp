@@ -61,7 +61,7 @@ Drained Draining::update(SlodTree& tree, const UpdateContext& context)
     for (const Remaking::Mapped& mapped : remaking_.mapped()) {
         if (mapped.changed == 0)
             continue;
-        drained.killed += mapped.changed;
+        drained.particles += mapped.changed;
         for (const Particle& member : remaking_.members_of(mapped)) {
             if (member.expiry_frame > context.frame)
                 continue;

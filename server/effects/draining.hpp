@@ -12,13 +12,13 @@ namespace slod {
 
 /// What sinks took, in one frame or in several.
 struct Drained {
-    std::uint64_t killed = 0;   ///< particles
+    std::uint64_t particles = 0;
     double mass = 0;            ///< scene mass
     Vector3d momentum{0, 0, 0}; ///< scene mass * length / time
 
     Drained& operator+=(const Drained& other)
     {
-        killed += other.killed;
+        particles += other.particles;
         mass += other.mass;
         momentum += other.momentum;
         return *this;

@@ -24,7 +24,7 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t born = 0;
     std::uint64_t births_refused = 0; ///< there are as many particles as the scene may have
     std::uint64_t died = 0;
-    std::uint64_t killed = 0;       ///< of those that died: by sinks
+    std::uint64_t drained = 0;      ///< of those that died: in sinks
     std::uint64_t kicked = 0;       ///< particles whose velocity was changed by itself
     std::uint64_t interactions = 0; ///< pairs of a cluster with another one or with a node, summed by gravity
     std::uint64_t far_nodes = 0;    ///< that act on many clusters at once, by an expansion
@@ -41,11 +41,11 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 26> event_counts{{
+inline constexpr std::array<EventCount, 27> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
-    {"killed", &FrameCounts::killed},
+    {"drained", &FrameCounts::drained},
     {"struck", &FrameCounts::struck},
     {"taken_apart", &FrameCounts::taken_apart},
     {"impacts", &FrameCounts::impacts},

@@ -271,9 +271,9 @@ void Simulation::State::emit()
 void Simulation::State::drain()
 {
     snapshot.drained = draining->update(tree, context());
-    snapshot.counts.killed = snapshot.drained.killed;
-    snapshot.counts.died += snapshot.drained.killed;
-    particle_count -= snapshot.drained.killed;
+    snapshot.counts.drained = snapshot.drained.particles;
+    snapshot.counts.died += snapshot.drained.particles;
+    particle_count -= snapshot.drained.particles;
 }
 
 void Simulation::State::update()

@@ -42,8 +42,8 @@ std::map<std::uint64_t, int> deaths(const SmallScene& scene, int frames)
     for (int frame = 1; frame <= frames; ++frame) {
         const std::uint64_t before = simulation.snapshot({}).counts.particles;
         const Snapshot& now = simulation.step({});
-        EXPECT_EQ(now.counts.killed, now.counts.died);
-        EXPECT_EQ(now.counts.particles, before - now.counts.killed);
+        EXPECT_EQ(now.counts.drained, now.counts.died);
+        EXPECT_EQ(now.counts.particles, before - now.counts.drained);
         std::map<std::uint64_t, int> alive;
         for (const Particle& particle : simulation.particles())
             alive[particle.id] = 1;
@@ -190,7 +190,7 @@ TEST(Sinks, OutOfReachChangeNoBit)
         const auto hash_of = [&] {
             Simulation simulation(scene.settings, scene.initial, {});
             for (int frame = 0; frame < 40; ++frame)
-                EXPECT_EQ(simulation.step({}).counts.killed, 0U);
+                EXPECT_EQ(simulation.step({}).counts.drained, 0U);
             return simulation.state_hash();
         };
         const std::uint64_t without = hash_of();

@@ -20,7 +20,7 @@ Snapshot snapshot(std::uint64_t frame, double forces_ms)
     snapshot.counts.clusters = 20;
     snapshot.counts.born = 3;
     snapshot.counts.interactions = 100;
-    snapshot.drained = {.killed = 1, .mass = 0.5, .momentum = {1, 0, -2}};
+    snapshot.drained = {.particles = 1, .mass = 0.5, .momentum = {1, 0, -2}};
     snapshot.profile[Phase::Forces] = forces_ms;
     snapshot.regions.push_back(
         {.row = 0, .clusters = 20, .particles = 1'234'567, .max_cluster_size = 23.5, .max_breadth = 1});
