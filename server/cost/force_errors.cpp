@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "cost/quantile.hpp"
 
 namespace slod::cost {
 namespace {
@@ -48,14 +49,10 @@ ForceErrors force_errors(std::span<const Vector3d> accelerations, const ExactFor
     }
     if (errors.empty())
         return {};
-    std::sort(errors.begin(), errors.end());
-    const auto quantile = [&](std::size_t percent) {
-        return errors[std::min(errors.size() * percent / 100, errors.size() - 1)];
-    };
-    return {.median = quantile(50),
-            .p90 = quantile(90),
-            .p99 = quantile(99),
-            .max = errors.back(),
+    return {.median = quantile(errors, 0.5),
+            .p90 = quantile(errors, 0.9),
+            .p99 = quantile(errors, 0.99),
+            .max = quantile(errors, 1),
             .rms = std::sqrt(squares / double(errors.size()))};
 }
 

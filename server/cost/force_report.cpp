@@ -1,9 +1,10 @@
 #include "cost/force_report.hpp"
 
-#include <array>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
+
+#include "core/number_text.hpp"
 
 namespace slod::cost {
 namespace {
@@ -11,9 +12,28 @@ namespace {
 template <class... Values>
 std::string formatted(const char* format, Values... values)
 {
-    std::array<char, 512> line{};
-    std::snprintf(line.data(), line.size(), format, values...);
-    return line.data();
+    std::string text(std::size_t(std::snprintf(nullptr, 0, format, values...)), ' ');
+    std::snprintf(text.data(), text.size() + 1, format, values...);
+    return text;
+}
+
+/// A field of a table with commas between.
+std::string quoted(const std::string& text)
+{
+    std::string field = "\"";
+    for (const char c : text)
+        field += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return field + '"';
+}
+
+/// What decides on nodes: "accuracy 0.001", "theta 0.5" or "tolerance 0.001".
+std::string criterion(const GravitySettings& gravity)
+{
+    if (gravity.accuracy > 0)
+        return "accuracy " + number_text(gravity.accuracy);
+    if (gravity.opening == OpeningCriterion::Geometric)
+        return "theta " + number_text(gravity.opening_angle);
+    return "tolerance " + number_text(gravity.force_tolerance);
 }
 
 double per_body(std::uint64_t count, const ForceReport& report)
@@ -41,9 +61,11 @@ std::string json_text(const ForceReport& r)
         {"n", r.bodies},
         {"threads", r.threads},
         {"softening", r.softening},
+        {"criterion", criterion(r.gravity)},
         {"accuracy", r.gravity.accuracy},
         {"seconds", r.trial.seconds},
         {"build_seconds", r.trial.build_seconds},
+        {"tree_seconds", r.tree_seconds},
         {"error",
          {{"median", r.trial.error.median},
           {"p90", r.trial.error.p90},
@@ -63,10 +85,12 @@ std::string json_text(const ForceReport& r)
 std::string text(const ForceReport& r)
 {
     const ForceErrors& e = r.trial.error;
-    return formatted("%zu bodies of %s, softening %g, %d threads\n", r.bodies, r.model.c_str(), r.softening,
-                     r.threads) +
+    return formatted("%zu bodies of %s, softening %g, %s, %d threads\n", r.bodies, r.model.c_str(),
+                     r.softening, criterion(r.gravity).c_str(), r.threads) +
            formatted("time       %.3f ms, of which the view %.3f ms\n", 1e3 * r.trial.seconds,
                      1e3 * r.trial.build_seconds) +
+           formatted("before it  %.0f ms, of the SLOD-tree from nothing, which frames keep up\n",
+                     1e3 * r.tree_seconds) +
            formatted("error      median %.2e, p90 %.2e, p99 %.2e, largest %.2e, rms %.2e\n", e.median, e.p90,
                      e.p99, e.max, e.rms) +
            formatted("a body     %.0f pairs, %.1f far nodes, %.0f bytes\n",
@@ -100,7 +124,7 @@ std::string csv_head()
 std::string csv_row(const ForceReport& r)
 {
     const ForceErrors& e = r.trial.error;
-    return formatted("%s,%zu,%d,%g,%g,%.6g,%.6g,", r.model.c_str(), r.bodies, r.threads, r.softening,
+    return formatted("%s,%zu,%d,%g,%g,%.6g,%.6g,", quoted(r.model).c_str(), r.bodies, r.threads, r.softening,
                      r.gravity.accuracy, r.trial.seconds, r.trial.build_seconds) +
            formatted("%.4g,%.4g,%.4g,%.4g,%.4g,%.6g,%.6g,%.1f,%.1f,%.1f", e.median, e.p90, e.p99, e.max,
                      e.rms, r.rates.kernel, r.rates.bare, r.normalised_cost(),

@@ -16,7 +16,9 @@ struct ForceReport {
     double softening = 0;
     GravitySettings gravity{};
     ForceTrial trial{};
-    KernelRates rates{};   ///< in the same run, of the same threads
+    KernelRates rates{}; ///< in the same run, of the same threads
+    double tree_seconds =
+        0;                 ///< of forming the clusters and their tree from nothing, which no evaluation does
     double body_bytes = 0; ///< memory that the evaluation takes, by body
 
     /// Pairs a body that the faster of the kernel and the bare loop evaluates in the same time: a measure

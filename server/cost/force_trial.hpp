@@ -38,7 +38,7 @@ private:
 
 /// What evaluations of the forces took. Times are in seconds.
 struct ForceTrial {
-    double seconds = 0;       ///< median of the whole, from bodies to accelerations
+    double seconds = 0;       ///< median of the whole, from clusters in their tree to accelerations
     double build_seconds = 0; ///< median of the view's part in it
     ForceCounts counts;       ///< of one evaluation
     ForceErrors error;

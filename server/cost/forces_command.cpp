@@ -59,7 +59,7 @@ ForcesCommand::ForcesCommand(CLI::App& app)
     CLI::Option_group* const precision = command_->add_option_group(
         "precision", "One of these; without any of them, gravity's default settings");
     precision->add_option("--accuracy", accuracy_, "Median relative error to aim at")
-        ->check(CLI::Range(1e-9, most_accuracy))
+        ->check(CLI::Range(least_accuracy, most_accuracy))
         ->option_text("E");
     precision->add_option("--theta", theta_, "Opening angle of the geometric criterion")
         ->check(CLI::Range(0.01, widest_opening))
@@ -85,6 +85,9 @@ int ForcesCommand::run() const
     const auto bodies = make_bodies(model_, count_, seed_);
     if (const auto* problems = std::get_if<Problems>(&bodies))
         return complain(*problems);
+    if (!accelerations_.empty() && !std::ofstream(accelerations_, std::ios::app))
+        return complain(
+            {accelerations_.string() + ": cannot be written; name a file in a folder that is there."});
     ForceReport report;
     ThreadTeam(team_size(threads_)).run([&] { report = measure(std::get<ParticleSet>(bodies)); });
     std::printf("%s\n", as_json_ ? json_text(report).c_str() : text(report).c_str());
@@ -101,12 +104,15 @@ ForceReport ForcesCommand::measure(const ParticleSet& bodies) const
     }
     if (tolerance_ > 0)
         gravity.force_tolerance = tolerance_;
+    const double begin_ms = milliseconds();
     ForceWorld world(bodies, softening_);
+    const double tree_seconds = 1e-3 * (milliseconds() - begin_ms);
     const ForceReport asked{.model = model_,
                             .bodies = bodies.size(),
                             .threads = team_size(threads_),
                             .softening = softening_,
-                            .gravity = gravity};
+                            .gravity = gravity,
+                            .tree_seconds = tree_seconds};
     const ForceReport report =
         cost::measure(world, exact_forces(bodies, softening_), asked, repeats_, milliseconds);
     if (!accelerations_.empty())

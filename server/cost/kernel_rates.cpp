@@ -49,26 +49,34 @@ struct Arrays {
     }
 };
 
-/// Pairs per second of all tasks together; `pairs_of` evaluates some and returns how many.
+/// What one task did, and from when to when.
+struct Spell {
+    double begin_ms = 0, end_ms = 0, pairs = 0;
+};
+
+/// Pairs per second of all tasks together, from the first one's begin to the last one's end; `pairs_of`
+/// evaluates some and returns how many.
 template <class Work>
 double rate_of(int threads, const Clock& clock, const Work& pairs_of)
 {
     double best = 0;
     for (int round = 0; round < rounds; ++round) {
-        std::vector<double> rates(static_cast<std::size_t>(threads));
-        for_each_task(rates.size(), [&](std::size_t task) {
-            const double start = clock();
-            double pairs = 0, spent = 0;
+        std::vector<Spell> spells(static_cast<std::size_t>(threads));
+        for_each_task(spells.size(), [&](std::size_t task) {
+            Spell spell{clock(), 0, 0};
             do {
-                pairs += double(pairs_of(task));
-                spent = clock() - start;
-            } while (spent < round_ms);
-            rates[task] = 1e3 * pairs / spent;
+                spell.pairs += double(pairs_of(task));
+                spell.end_ms = clock();
+            } while (spell.end_ms - spell.begin_ms < round_ms);
+            spells[task] = spell;
         });
-        double together = 0;
-        for (const double rate : rates)
-            together += rate;
-        best = std::max(best, together);
+        double begin = spells.front().begin_ms, end = spells.front().end_ms, pairs = 0;
+        for (const Spell& spell : spells) {
+            begin = std::min(begin, spell.begin_ms);
+            end = std::max(end, spell.end_ms);
+            pairs += spell.pairs;
+        }
+        best = std::max(best, 1e3 * pairs / (end - begin));
     }
     return best;
 }

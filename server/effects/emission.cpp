@@ -49,8 +49,9 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
         births.refused += emitters_[emitter].emit(context.frame, context.step, fields_, room - births.born,
                                                   newborns_, colliders_, air_);
         if (sinks_ != nullptr)
-            std::erase_if(newborns_,
-                          [&](const Newborn& born) { return sinks_->hold(born.particle.position); });
+            std::erase_if(newborns_, [&](const Newborn& born) {
+                return sinks_->meet(born.from, born.particle.position);
+            });
         births.born += newborns_.size();
         const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
         if (joined < newborns_.size())

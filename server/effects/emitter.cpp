@@ -61,11 +61,17 @@ std::uint64_t Emitter::emit(std::uint64_t frame, double step, const UniformField
             born = newborn(k, settings_.start + starts_.time_of(k, window), end, step);
             Vector3d& position = born.particle.position;
             Vector3d& velocity = born.particle.velocity;
+            born.from = position;
             const UniformFields felt =
                 air == nullptr ? fields : air->felt(position, velocity, end - born.age, born.age).fields;
-            if (colliders == nullptr)
+            if (colliders == nullptr) {
                 felt.over(born.age).apply(position, velocity);
-            else if (colliders->fly(position, velocity, born.age, {0, 0, 0}, felt).killed)
+                continue;
+            }
+            const auto met = colliders->fly(position, velocity, born.age, {0, 0, 0}, felt);
+            if (met.touched)
+                born.from = position;
+            if (met.killed)
                 born.particle.expiry_frame = std::uint32_t(frame);
         }
     });

@@ -17,6 +17,8 @@ namespace slod {
 struct Newborn {
     Particle particle; ///< as it is at the end of the frame
     double age = 0;
+    Vector3d from{
+        0, 0, 0}; ///< where it came from on a straight way, to first order: its birth, unless it hit anything
 };
 
 /// One emitter. When particle k starts does not depend on the frames; everything about it depends on the

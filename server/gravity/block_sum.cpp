@@ -6,17 +6,9 @@
 #include <numeric>
 
 #include "core/assert.hpp"
+#include "core/powers.hpp"
 
 namespace slod {
-namespace {
-
-double power_of_two_above(double value)
-{
-    return value > 0 && std::isfinite(value) ? std::ldexp(1.0, std::ilogb(value) + 1) : 1.0;
-}
-
-} // namespace
-
 ScaledUnits units_of(const ForceView& view)
 {
     double extent = 0;

@@ -20,13 +20,14 @@ template <class Real>
 ForceCounts BranchWalk<Real>::run(std::uint32_t branch)
 {
     counts_ = {};
+    const std::uint64_t tested_before = sieve_.tested();
     listed_ = 0;
     const bool relative = terms_.gravity.opening == OpeningCriterion::Relative;
     gross_pull_ = relative ? gross_pull(view_, view_.nodes[branch], region_) : 0;
     const Sources answered = roots(true), unanswered = roots(false);
     end_ = listed_ + room_;
     descend(branch, {answered, unanswered});
-    counts_.nodes_tested = sieve_.tested();
+    counts_.nodes_tested = sieve_.tested() - tested_before;
     return counts_;
 }
 

@@ -65,8 +65,9 @@ public:
         const std::size_t node = open();
         const std::uint64_t apart = view_.cells[begin].key ^ view_.cells[end - 1].key;
         if (apart == 0) { // bins of one cell, or cells at the rim
-            for (std::size_t cell = begin; cell < end; ++cell)
-                add_tree(view_.cells[cell].root);
+            const std::size_t middle = begin + (end - begin) / 2;
+            add_cells(begin, middle);
+            add_cells(middle, end);
         } else {
             const int shift =
                 (int(std::bit_width(apart)) - 1) / 3 * 3; // of the octants in which the cells differ

@@ -14,8 +14,9 @@ namespace slod {
 /// regions' subtrees, k-d nodes below each grid cell and octants of cells above. Carries no state: rebuilt
 /// every frame in O(clusters). Bodies of a node are one run, and neighbours in space are near in the run.
 struct ForceView {
-    /// A node covers bodies [first, first + count); the next node that is not below it is `next`. One cache
-    /// line: the walk waits for memory. Lengths are float, as nothing depends on their last bits.
+    /// A node covers bodies [first, first + count); the next node that is not below it is `next`. It has no
+    /// parts, or two to eight. One cache line: the walk waits for memory. Lengths are float, as nothing
+    /// depends on their last bits.
     struct alignas(64) Node {
         std::uint32_t first = 0, count = 0;
         std::uint32_t next = 0;

@@ -58,7 +58,8 @@ std::size_t NodeSieve<Real>::take_batch()
         sources_ = sources_.subspan(count);
         return count;
     }
-    const std::size_t room = (most_pending - pending_count_) / 8;
+    const std::size_t used = pending_count_ + kept_for_single;
+    const std::size_t room = used < most_pending ? (most_pending - used) / 7 : 0;
     const std::size_t count = std::min({pending_count_, most_nodes, std::max<std::size_t>(room, 1)});
     pending_count_ -= count;
     std::copy_n(pending_.begin() + std::ptrdiff_t(pending_count_), count, batch_.begin());

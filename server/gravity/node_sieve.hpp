@@ -48,8 +48,10 @@ public:
 
 private:
     static constexpr std::size_t most_nodes = 64; ///< of a batch
-    /// A node has at most eight parts, so that a branch of the tree needs seven places a level, however deep.
-    static constexpr std::size_t most_pending = 8192;
+    /// A node has at most eight parts. Where there is no room for those of a batch, nodes come one by one,
+    /// and a level of the tree takes seven places at most: 21 levels of octants, and one place for each level
+    /// of halves.
+    static constexpr std::size_t most_pending = 8192, kept_for_single = 1024;
     static_assert(most_nodes % simd::tile_width == 0);
 
     /// NodeRole's numbers, and one more for what has no parts.

@@ -9,7 +9,7 @@ namespace {
 constexpr double least_share = 0.05; ///< of the gross pull
 
 /// Bounds that nothing keeps, and that everything does.
-constexpr double none = std::numeric_limits<double>::quiet_NaN(), any = 1e30;
+constexpr double none = std::numeric_limits<double>::quiet_NaN(), any = std::numeric_limits<double>::max();
 
 struct Corners {
     Vector3d lower, upper;

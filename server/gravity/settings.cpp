@@ -49,6 +49,9 @@ Problems problems(const GravitySettings& gravity)
         return {};
     Problems found;
     const std::string given = "accuracy = " + number_text(gravity.accuracy);
+    if (gravity.accuracy < least_accuracy)
+        found.push_back(given + " is less than pairs in float can keep; use at least " +
+                        number_text(least_accuracy) + ", or 0 and force_tolerance.");
     const GravitySettings defaults;
     const auto clash = [&](const std::string& key, bool differs) {
         if (differs)

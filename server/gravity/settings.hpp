@@ -43,8 +43,8 @@ constexpr std::array<std::string_view, 2> names(Multipoles)
     return {"monopole", "quadrupole"};
 }
 
-/// The largest median error that can be asked for.
-inline constexpr double most_accuracy = 4e-3;
+/// Range of the median errors that can be asked for: that of the calibration.
+inline constexpr double least_accuracy = 1.9e-5, most_accuracy = 4e-3;
 
 /// Self-gravity between clusters.
 struct GravitySettings {
@@ -77,7 +77,8 @@ void for_each_field(GravitySettings& gravity, Visitor&& visit)
 {
     visit(Field{"strength", "", "Factor on Newton's constant.", 0, 1e30}, gravity.strength);
     visit(Field{"accuracy", "",
-                "Median relative error of the forces to aim at, by which the criterion, what nodes "
+                "Median relative error of the forces to aim at, at least 1.9e-5, by which the criterion, "
+                "what nodes "
                 "are made of and their tolerance are chosen; 0: as they are set.",
                 0, most_accuracy},
           gravity.accuracy);

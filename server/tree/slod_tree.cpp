@@ -8,17 +8,13 @@
 
 #include "core/assert.hpp"
 #include "core/parallel.hpp"
+#include "core/powers.hpp"
 
 namespace slod {
 namespace {
 
 const Box all_space{Vector3d::Constant(-std::numeric_limits<double>::infinity()),
                     Vector3d::Constant(std::numeric_limits<double>::infinity())};
-
-double power_of_two_above(double width)
-{
-    return width > 0 ? std::ldexp(1.0, std::ilogb(width) + 1) : 1.0;
-}
 
 /// Side of a region's grid cells: the maximum breadth or, when that is unlimited, a power of two that spans
 /// the region, for the k-d trees to refine.

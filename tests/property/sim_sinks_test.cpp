@@ -213,6 +213,26 @@ TEST(Sinks, SwallowWhatIsBornInThem)
     }
 }
 
+// The first, partial frame takes most newborns past a plate of 0.01 half a length before the nozzle.
+TEST(Sinks, ThatAreThinAreNotFlownThroughByNewborns)
+{
+    SmallScene scene = small_scene("fountain");
+    EmitterSettings& emitter = scene.settings.emitters.front();
+    scene.settings.emitters.resize(1);
+    emitter.direction = {0, 0, 1};
+    emitter.cone_angle_deg = 0;
+    emitter.speed = 200;
+    scene.settings.sinks = {{.name = "plate",
+                             .shape = SinkShape::Box,
+                             .position = emitter.position + Vector3d(0, 0, 0.5),
+                             .half_extent = {100, 100, 0.005}}};
+    Simulation simulation(scene.settings, scene.initial, {});
+    for (int frame = 0; frame < 20; ++frame)
+        simulation.step({});
+    for (const Particle& particle : simulation.particles())
+        EXPECT_LT(particle.position.z(), emitter.position.z() + 0.5);
+}
+
 TEST(Sinks, HaveTheSameBitsAtAnyNumberOfThreads)
 {
     for (const char* name : {"sinks", "attracted_sink"}) {

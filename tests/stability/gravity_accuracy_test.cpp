@@ -167,7 +167,7 @@ TEST(GravityAccuracySetting, IsTheMedianErrorWhateverTheCloud)
 {
     for (const ParticleSet& particles :
          {plummer_sphere(20'000, 11), two_clumps(20'000, 12), cloud(20'000, 13, in_exponential_disc),
-          cloud(20'000, 14, in_unit_box)}) {
+          cloud(20'000, 14, in_unit_box), mass_spectrum(20'000, 15)}) {
         AttractingWorld world = walked(particles);
         for (const double accuracy : {1e-4, 5e-4, 2e-3}) {
             world.settings = with_accuracy({.accuracy = accuracy, .direct_below = 0});
@@ -201,6 +201,7 @@ TEST(GravityAccuracySetting, IsRefusedBesideWhatItChooses)
               "accuracy = 0.001 chooses force_tolerance, which is given too; leave one of them out.");
     EXPECT_NE(problem({.accuracy = 0.001, .opening = OpeningCriterion::Geometric}), "");
     EXPECT_NE(problem({.accuracy = 0.001, .multipoles = Multipoles::Monopole}), "");
+    EXPECT_NE(problem({.accuracy = 1e-9}).find("use at least 1.9e-05"), std::string::npos);
     EXPECT_TRUE(problems(GravitySettings{.force_tolerance = 0.01}).empty());
 }
 

@@ -1,6 +1,6 @@
-#include <cmath>
 #include <cstring>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -124,6 +124,34 @@ TEST(GravityWalk, GivesTheSameBitsOnEveryInstructionSetAndAnyNumberOfThreads)
                         << threads;
                 }
             }
+        }
+    }
+}
+
+// Masses of a galaxy in kilograms, lengths in anything: by powers of two nothing else changes, not even a
+// bit.
+TEST(GravityWalk, DoesTheSameInAnyUnits)
+{
+    const ParticleSet particles = plummer_sphere(4'000, 3);
+    for (const OpeningCriterion opening : {OpeningCriterion::Geometric, OpeningCriterion::Relative}) {
+        AttractingWorld here = walked(particles, 0.01);
+        here.settings.opening = opening;
+        const ForceCounts first_here = here.evaluate(), second_here = here.evaluate();
+        for (const auto& [mass, length] : {std::pair{120, 0}, std::pair{120, 12}, std::pair{-90, -40}}) {
+            ParticleSet scaled = particles;
+            for (Particle& particle : scaled) {
+                particle.position *= std::ldexp(1.0, length);
+                particle.mass = std::ldexp(particle.mass, mass);
+            }
+            AttractingWorld there = walked(scaled, std::ldexp(0.01, length));
+            there.settings.opening = opening;
+            const ForceCounts first = there.evaluate(), second = there.evaluate();
+            EXPECT_EQ(first.interactions, first_here.interactions) << mass << " " << length;
+            EXPECT_EQ(second.interactions, second_here.interactions) << mass << " " << length;
+            EXPECT_EQ(second.far_nodes, second_here.far_nodes);
+            const std::vector<Vector3d> expected = here.by_id(), found = there.by_id();
+            for (std::size_t i = 0; i < found.size(); ++i)
+                ASSERT_EQ(found[i], expected[i] * std::ldexp(1.0, mass - 2 * length)) << i;
         }
     }
 }

@@ -84,12 +84,12 @@ TEST_F(BodiesFile, IsRefusedByTheLine)
 {
     const auto at = [&](int line) { return file_.string() + ":" + std::to_string(line) + ": "; };
     EXPECT_EQ(problem("0 0 0 1\n1 2 3\n"),
-              at(2) + "\"1 2 3\" is no body; write its x, y, z and mass, four finite numbers.");
+              at(2) + "\"1 2 3\" is no body; write its x, y, z and mass, four numbers of at most 1e30.");
     EXPECT_EQ(problem("1 2 3 4 5\n").find(at(1)), 0);
     EXPECT_EQ(problem("1 2 nan 4\n").find(at(1)), 0);
     EXPECT_EQ(problem("1 2 3 4 # mine\n").find(at(1)), 0);
     EXPECT_NE(problem("1 2 3 -4\n").find("has a mass below 0"), std::string::npos);
-    EXPECT_NE(problem("1 2 3 1e39\n").find("above 3e38"), std::string::npos);
+    EXPECT_EQ(problem("1e308 0 0 1\n").find(at(1)), 0);
     EXPECT_NE(problem("# nothing\n").find("no body in it"), std::string::npos);
 }
 
@@ -126,8 +126,8 @@ TEST(CostForces, ErrorsAreRelativeAndOrdered)
     exact.accelerations.emplace_back(0, 0, 0); // has no relative error
     const ForceErrors errors = force_errors(accelerations, exact);
     EXPECT_NEAR(errors.median, 0.50, 1e-12);
-    EXPECT_NEAR(errors.p90, 0.90, 1e-12);
-    EXPECT_NEAR(errors.p99, 0.99, 1e-12);
+    EXPECT_NEAR(errors.p90, 0.89, 1e-12);
+    EXPECT_NEAR(errors.p99, 0.98, 1e-12);
     EXPECT_NEAR(errors.max, 0.99, 1e-12);
     EXPECT_NEAR(errors.rms, std::sqrt(99.0 * 199 / 6 / 1e4), 1e-12); // of 0..99 percent
 }
@@ -162,7 +162,7 @@ TEST(CostForces, KernelRatesAreMeasured)
     const KernelRates rates = measure_kernel_rates(1, [clock = 0.0]() mutable { return clock += 100; });
     EXPECT_GT(rates.kernel, 0);
     EXPECT_GT(rates.bare, 0);
-    EXPECT_GE(rates.faster(), rates.kernel);
+    EXPECT_EQ(rates.faster(), std::max(rates.kernel, rates.bare));
 }
 
 } // namespace

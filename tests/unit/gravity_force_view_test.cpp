@@ -72,8 +72,24 @@ TEST(ForceView, ARegionHasOneRootWhereCellsShareACode)
         EXPECT_EQ(world.region().cells.size(), 5U);
         const ForceView view = view_of(world);
         EXPECT_EQ(problems(view, world.store.clusters), Problems{});
-        EXPECT_EQ(view.nodes.size(), 6U);
+        EXPECT_EQ(view.nodes.size(), 9U); // halved until each is one
         EXPECT_EQ(view.nodes.front().count, 5U);
+    }
+}
+
+// However many cells share a code.
+TEST(ForceView, HasNoNodeOfMoreThanEightParts)
+{
+    test::World world({MapKind::Scalar, 0, 0.1}, {}, {}, 1);
+    for (std::uint64_t i = 0; i < 1000; ++i)
+        world.add({{.position = {2e6 + double(i), 0, 0}, .velocity = {0, 0, 0}, .id = i, .mass = 1}});
+    const ForceView view = view_of(world);
+    EXPECT_EQ(problems(view, world.store.clusters), Problems{});
+    for (std::uint32_t node = 0; node < view.nodes.size(); ++node) {
+        int parts = 0;
+        for (std::uint32_t part = node + 1; part < view.nodes[node].next; part = view.nodes[part].next)
+            ++parts;
+        EXPECT_LE(parts, 8) << node;
     }
 }
 
