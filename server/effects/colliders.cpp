@@ -150,7 +150,7 @@ Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, doub
         const Elapsed left = elapsed(time, fields.drag);
         const Departure departure = leave({position, velocity, pull, fields.drag}, left, contacts, encounter);
         bounces += met && departure.bounces ? 1 : 0;
-        const std::optional<Impact> impact = next_impact(departure.path, left, contacts);
+        const std::optional<Impact> impact = next_impact(departure, left, contacts);
         encounter.touched = encounter.touched || impact || !contacts.all().empty();
         const Elapsed flown = impact ? elapsed(impact->time, fields.drag) : left;
         position = departure.path.position_after(flown);
@@ -214,7 +214,7 @@ Colliders::Departure Colliders::leave(Path path, const Elapsed& left, Contacts& 
                                       Encounter& encounter) const
 {
     if (contacts.all().empty())
-        return {path, false, false, {0, 0, 0}};
+        return {path, false, false, {0, 0, 0}, 0};
     const double rest_time = rest_of_pull * step_;
     std::uint32_t impacts = 0;
     for (const Contact& contact : contacts.all()) {
@@ -229,24 +229,42 @@ Colliders::Departure Colliders::leave(Path path, const Elapsed& left, Contacts& 
     const bool stops = brake(held, left, path);
     path.velocity += held.frame;
     path.acceleration += path.drag * held.frame;
-    return {path, impacts > 0, stops, held.frame};
+    return {path, impacts > 0, stops, held.frame, std::hypot(held.pressing, held.acceleration.norm())};
+}
+
+/// Where it may touch more than is listed, what is not is judged by itself, unless it is covered, in which
+/// case what covers it is.
+Colliders::Stance Colliders::stance(const Piece& piece, const Solid& solid, const Departure& departure,
+                                    double left, const Contacts& contacts) const
+{
+    const Path& path = departure.path;
+    if (const Contact* const contact = contacts.find(piece))
+        return {contact->holds, contact->leaves(path.velocity)};
+    if (!contacts.full())
+        return {};
+    const Path seen = seen_from(all_[piece.collider], path, left);
+    if (solid.surface(seen.position).distance > contact_tolerance(path.position) ||
+        solid.cover(seen.position).count > 0)
+        return {};
+    const Contact contact = contact_with(piece, solid, seen.position);
+    return {contact.keeps(path.velocity, seen.acceleration, departure.pull), contact.leaves(path.velocity)};
 }
 
 /// The earliest one; of several at once that of the first collider.
-std::optional<Colliders::Impact> Colliders::next_impact(const Path& path, const Elapsed& limit,
+std::optional<Colliders::Impact> Colliders::next_impact(const Departure& departure, const Elapsed& limit,
                                                         const Contacts& contacts) const
 {
+    const Path& path = departure.path;
     std::optional<Impact> next;
     Elapsed latest = limit;
     const double tolerance = contact_tolerance(path.position);
     for (const Collider& collider : all_) {
         const Path seen = seen_from(collider, path, limit.time);
         any_piece(collider, seen.sweep(limit, tolerance), [&](const Piece& piece, const Solid& solid) {
-            const Contact* const contact = contacts.find(piece);
-            if (contact != nullptr && contact->holds)
+            const Stance stands = stance(piece, solid, departure, limit.time, contacts);
+            if (stands.held)
                 return false;
-            const bool leaving = contact != nullptr && contact->leaves(path.velocity);
-            const double time = first_contact(seen, solid, 0, latest, leaving);
+            const double time = first_contact(seen, solid, 0, latest, stands.leaving);
             if (time < (next ? next->time : never)) {
                 next = {piece, time};
                 latest = Elapsed(path.drag, time);

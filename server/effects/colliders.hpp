@@ -81,6 +81,13 @@ private:
         bool bounces;
         bool stops;    ///< at the end of it, on what holds it
         Vector3d rest; ///< the velocity of that
+        double pull;   ///< size of the acceleration before anything held it
+    };
+
+    /// How a particle that departs stands to a piece.
+    struct Stance {
+        bool held = false;    ///< it stays on it
+        bool leaving = false; ///< it touches it, and goes away or along
     };
 
     Elapsed elapsed(double time, double drag) const
@@ -102,7 +109,10 @@ private:
     void visit_piece(const Piece& piece, const Visit& visit) const;
     void touch(Vector3d& position, double left, std::optional<Piece> met, Contacts& contacts) const;
     Departure leave(Path path, const Elapsed& left, Contacts& contacts, Encounter& encounter) const;
-    std::optional<Impact> next_impact(const Path& path, const Elapsed& limit, const Contacts& contacts) const;
+    Stance stance(const Piece& piece, const Solid& solid, const Departure& departure, double left,
+                  const Contacts& contacts) const;
+    std::optional<Impact> next_impact(const Departure& departure, const Elapsed& limit,
+                                      const Contacts& contacts) const;
 
     std::vector<Collider> all_;
     UniformFields fields_;

@@ -142,15 +142,36 @@ void attempt_all(std::span<const Contact> contacts, NearestAllowed& nearest)
     nearest.attempt({0, {0, 0, 0}}, all);
 }
 
-/// Whether what is left of a motion keeps to the contact.
-bool keeps_to(const Contact& contact, const Hold& held, const Vector3d& acceleration)
+/// How little two contacts differ: the cosine of the angle between them; less than any where they are of two
+/// colliders.
+double likeness(const Contact& a, const Contact& b)
 {
-    return std::abs(contact.normal.dot(held.velocity + held.frame - contact.velocity)) <=
-               contact.slack * (held.velocity + held.frame - contact.velocity).norm() &&
-           std::abs(contact.normal.dot(held.acceleration)) <= contact.slack * acceleration.norm();
+    return a.piece.collider == b.piece.collider ? a.normal.dot(b.normal) : -2;
 }
 
 } // namespace
+
+void Contacts::add(const Contact& contact)
+{
+    all_[full() ? most_alike(contact) : count_++] = contact;
+}
+
+/// The earlier one of the two that differ the least, of all and the next one.
+std::size_t Contacts::most_alike(const Contact& next) const
+{
+    std::size_t found = 0;
+    double most_like = -3;
+    for (std::size_t i = 0; i < count_; ++i) {
+        for (std::size_t j = i + 1; j <= count_; ++j) {
+            const double like = likeness(all_[i], j < count_ ? all_[j] : next);
+            if (like > most_like) {
+                most_like = like;
+                found = i;
+            }
+        }
+    }
+    return found;
+}
 
 const Contact* Contacts::find(const Piece& piece) const
 {
@@ -204,7 +225,8 @@ Hold hold(std::span<Contact> contacts, double rest_time, const Vector3d& velocit
         if (contacts[i].holds)
             held.friction = std::max(held.friction, contacts[i].friction);
         else if (nearest.slow(i))
-            contacts[i].holds = keeps_to(contacts[i], held, wanted);
+            contacts[i].holds =
+                contacts[i].keeps(held.velocity + held.frame, held.acceleration, wanted.norm());
     }
     return held;
 }

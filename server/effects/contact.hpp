@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,25 +34,34 @@ struct Contact {
         const Vector3d relative = v - velocity;
         return normal.dot(relative) >= -slack * relative.norm();
     }
+
+    /// Whether a particle of that velocity stays along it under an acceleration that is seen by who moves
+    /// with it, as far as rounding of one of that size can tell.
+    bool keeps(const Vector3d& v, const Vector3d& acceleration, double size) const
+    {
+        const Vector3d relative = v - velocity;
+        return std::abs(normal.dot(relative)) <= slack * relative.norm() &&
+               std::abs(normal.dot(acceleration)) <= slack * size;
+    }
 };
 
-/// Pieces that one particle touches at a time; those beyond the bound are met in the next moment.
+/// Pieces that one particle touches at a time. Of more than the bound, as at a vertex that many triangles
+/// share, those stay that differ the most, and the last one in any case: the others lead nowhere new.
 class Contacts {
 public:
     static constexpr std::size_t most = 16;
 
     void clear() { count_ = 0; }
-    void add(const Contact& contact)
-    {
-        if (count_ < most)
-            all_[count_++] = contact;
-    }
+    void add(const Contact& contact);
+    bool full() const { return count_ == most; } ///< so that others may be touched besides
     std::span<Contact> all() { return std::span(all_).first(count_); }
     std::span<const Contact> all() const { return std::span(all_).first(count_); }
     const Contact* find(const Piece& piece) const; ///< null when it is not touched
     const Contact* find(OnHit on_hit) const;       ///< the first of a collider that does so; null without
 
 private:
+    std::size_t most_alike(const Contact& next) const;
+
     std::array<Contact, most> all_;
     std::size_t count_ = 0;
 };
