@@ -51,9 +51,8 @@ void Sheet::take_triangles(const Mesh& mesh, std::span<const std::uint32_t> firs
 {
     for (const Mesh::Triangle& each : mesh.triangles) {
         const Mesh::Triangle triangle{first_at[each[0]], first_at[each[1]], first_at[each[2]]};
-        const Vector3d& corner = vertices_[triangle[0]];
         const Vector3d normal =
-            (vertices_[triangle[1]] - corner).cross(vertices_[triangle[2]] - corner).stableNormalized();
+            triangle_normal(vertices_[triangle[0]], vertices_[triangle[1]], vertices_[triangle[2]]);
         if (normal.isZero(0))
             continue;
         triangles_.push_back(triangle);
@@ -210,6 +209,11 @@ Cover Plate::cover(const Vector3d& x) const
 double Plate::slack(const Vector3d& x) const
 {
     return 4 * contact_tolerance(x) / sheet_.radius_;
+}
+
+Vector3d triangle_normal(const Vector3d& a, const Vector3d& b, const Vector3d& c)
+{
+    return (b - a).cross(c - a).stableNormalized();
 }
 
 } // namespace slod

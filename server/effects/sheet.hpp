@@ -90,6 +90,9 @@ private:
     std::uint32_t index_;
 };
 
+/// Unit vector across a triangle; 0 where that has no area.
+Vector3d triangle_normal(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+
 /// That of settings without problems whose mesh is there.
 std::unique_ptr<Sheet> make_sheet(const ColliderSettings& settings);
 

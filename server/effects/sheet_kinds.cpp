@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "core/assert.hpp"
@@ -29,6 +30,15 @@ double reach(const ColliderSettings& settings)
     return reach;
 }
 
+bool has_area(const ColliderSettings& settings)
+{
+    const auto& [vertices, triangles] = *settings.mesh;
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Mesh::Triangle& triangle) {
+        const auto corner = [&](std::size_t i) { return placed(settings, vertices[triangle[i]]); };
+        return !triangle_normal(corner(0), corner(1), corner(2)).isZero(0);
+    });
+}
+
 Problems sheet_problems(const ColliderSettings& settings)
 {
     Problems found;
@@ -38,6 +48,10 @@ Problems sheet_problems(const ColliderSettings& settings)
         found.push_back("scale = 0 leaves no surface; use more than 0.");
     if (settings.shape == ColliderShape::Heightfield && settings.spacing == 0)
         found.push_back("spacing = 0 leaves no surface; use more than 0.");
+    if (found.empty() && settings.mesh && !has_area(settings))
+        found.push_back("file = \"" + settings.file +
+                        "\": no triangle in it has an area; give it three vertices that are apart and not in "
+                        "line, or name another file.");
     const double least = settings.mesh ? thinnest * reach(settings) : 0;
     if (settings.thickness <= least)
         found.push_back("thickness = " + number_text(settings.thickness) +

@@ -172,6 +172,19 @@ TEST(ColliderSettings, F25_AreRefusedWhereTheyLeaveNoSheet)
     EXPECT_TRUE(says(faulty, "spacing = 0 leaves no surface; use"));
 }
 
+// A vertex twice, and three in line.
+TEST(ColliderSettings, F25_AreRefusedWhereNoTriangleHasAnArea)
+{
+    const std::vector<Vector3d> vertices{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {0, 1, 0}};
+    ColliderSettings line = sheet({vertices, {{0, 0, 3}, {0, 1, 2}}});
+    line.file = "line.obj";
+    const Problems found = problems(line);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_TRUE(found.front().starts_with("file = \"line.obj\": no triangle in it has an area; give it"))
+        << found.front();
+    EXPECT_EQ(problems(sheet({vertices, {{0, 0, 3}, {0, 1, 2}, {0, 1, 3}}})), Problems{});
+}
+
 TEST(Sheet, IsWhereItsSettingsSay)
 {
     ColliderSettings settings = sheet(grid_mesh(3, 2, 1, [](auto x, auto y) { return double(x + y); }));
