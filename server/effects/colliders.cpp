@@ -139,14 +139,14 @@ Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, doub
     std::uint32_t bounces = 0;
     for (std::uint32_t meetings = 0;; ++meetings) {
         touch(position, time, met, contacts);
+        if (ends(contacts, met.has_value(), time, position, velocity, encounter))
+            return encounter;
         if (met && (bounces + 1 == most_meetings || meetings == most_slides)) {
             velocity = all_[met->collider].velocity;
             position += time * velocity;
             encounter.cut_off = true;
             return encounter;
         }
-        if (ends(contacts, met.has_value(), time, position, velocity, encounter))
-            return encounter;
         const Elapsed left = elapsed(time, fields.drag);
         const Departure departure = leave({position, velocity, pull, fields.drag}, left, contacts, encounter);
         bounces += met && departure.bounces ? 1 : 0;

@@ -324,6 +324,21 @@ TEST(Colliders, F19_LetWhatHasTooManyImpactsAtOnceRestWhereItIs)
     EXPECT_NEAR(state.position.x(), 3 * 7.5e-3, 1e-15) << "where the eighth would have been";
 }
 
+// Seven widths of the slit, and at the eighth meeting the wall at its end.
+TEST(Colliders, KillWhatMeetsItsEndAtTheLastMeetingThatItMayHave)
+{
+    ColliderSettings end = plane({3 * 7e-3, 0, 0}, {-1, 0, 0});
+    end.on_hit = OnHit::Kill;
+    const Colliders slit(
+        {with(plane({0, 0, 0}, {0, 0, 1}), 1, 0), with(plane({0, 0, 1e-3}, {0, 0, -1}), 1, 0), end}, {},
+        frame);
+    Vector3d position(0, 0, 5e-4), velocity(3, 0, 1);
+    const auto met = slit.fly(position, velocity, frame);
+    EXPECT_TRUE(met.killed);
+    EXPECT_FALSE(met.cut_off);
+    EXPECT_EQ(met.impacts, Colliders::most_meetings);
+}
+
 // What the bound of a cluster promises: nobody in a ball that cannot touch does.
 TEST(Colliders, NeverMissAClusterWhoseMemberTouches)
 {
