@@ -61,7 +61,9 @@ Vector3d common_velocity(std::span<const Contact> contacts, std::uint32_t holdin
 class NearestAllowed {
 public:
     struct Motion {
-        Vector3d velocity, acceleration;
+        Vector3d velocity;
+        Vector3d acceleration, frame; ///< of what moves at the velocity `frame`
+        double drag;
         double rest_time; ///< a flight that its normal speed ends within twice this is none
     };
 
@@ -69,16 +71,19 @@ public:
         : contacts_(contacts), wanted_(wanted)
     {
         for (std::size_t i = 0; i < contacts.size(); ++i)
-            slow_ |= std::uint32_t(returns(contacts[i], wanted.velocity, wanted.acceleration)) << i;
+            slow_ |= std::uint32_t(returns(contacts[i], wanted)) << i;
     }
 
     bool slow(std::size_t contact) const { return (slow_ >> contact & 1U) != 0; }
 
     void attempt(const Freedom& freedom, std::uint32_t holding)
     {
-        const Vector3d left = freedom.keep(wanted_.acceleration);
-        const double lost = (wanted_.acceleration - left).squaredNorm();
-        if (lost < (1 - rounding) * least_ && allowed(freedom, left, holding)) {
+        const Vector3d frame = common_velocity(contacts_, holding);
+        const Vector3d seen = acceleration_in(frame), left = freedom.keep(seen);
+        const double lost = (seen - left).squaredNorm();
+        const Motion then{freedom.keep(wanted_.velocity - frame) + frame, left, frame, wanted_.drag,
+                          wanted_.rest_time};
+        if (lost < (1 - rounding) * least_ && allowed(then, holding)) {
             least_ = lost;
             best_ = freedom;
             holding_ = holding;
@@ -91,24 +96,34 @@ public:
 private:
     static constexpr double rounding = 1e-12; ///< of the square of what is lost
 
-    /// Whether such a motion is back at once.
-    bool returns(const Contact& contact, const Vector3d& velocity, const Vector3d& acceleration) const
+    /// The wanted acceleration of what moves at the velocity `frame`.
+    Vector3d acceleration_in(const Vector3d& frame) const
     {
-        const double pull = std::max(0.0, -contact.normal.dot(acceleration));
-        return contact.normal.dot(velocity - contact.velocity) <= wanted_.rest_time * pull;
+        return wanted_.acceleration + wanted_.drag * (wanted_.frame - frame);
     }
 
-    bool allowed(const Freedom& freedom, const Vector3d& left, std::uint32_t holding) const
+    /// Acceleration away from the contact, as seen by who moves with it.
+    static double lift(const Contact& contact, const Motion& motion)
     {
-        const Vector3d frame = common_velocity(contacts_, holding);
-        const Vector3d velocity = freedom.keep(wanted_.velocity - frame) + frame;
-        const double size = wanted_.acceleration.norm();
+        return contact.normal.dot(motion.acceleration + motion.drag * (motion.frame - contact.velocity));
+    }
+
+    /// Whether such a motion is back at once.
+    static bool returns(const Contact& contact, const Motion& motion)
+    {
+        const double pull = std::max(0.0, -lift(contact, motion));
+        return contact.normal.dot(motion.velocity - contact.velocity) <= motion.rest_time * pull;
+    }
+
+    bool allowed(const Motion& then, std::uint32_t holding) const
+    {
         for (std::size_t i = 0; i < contacts_.size(); ++i) {
             const Contact& contact = contacts_[i];
             if (!slow(i) || (holding >> i & 1U) != 0)
                 continue;
-            const bool pulled = contact.normal.dot(left) < -contact.slack * size;
-            if ((pulled && returns(contact, velocity, left)) || !contact.leaves(velocity))
+            const double size = acceleration_in(contact.velocity).norm();
+            const bool pulled = lift(contact, then) < -contact.slack * size;
+            if ((pulled && returns(contact, then)) || !contact.leaves(then.velocity))
                 return false;
         }
         return true;
@@ -211,8 +226,7 @@ bool bounce(const Contact& contact, double rest_speed, Vector3d& velocity)
 Hold hold(std::span<Contact> contacts, double rest_time, const Vector3d& velocity,
           const Vector3d& acceleration, double drag)
 {
-    const Vector3d pull = acceleration - drag * contacts.front().velocity;
-    NearestAllowed nearest(contacts, {velocity, pull, rest_time});
+    NearestAllowed nearest(contacts, {velocity, acceleration, {0, 0, 0}, drag, rest_time});
     attempt_all(contacts, nearest);
     const std::uint32_t holding = nearest.holding();
     Hold held{.frame = common_velocity(contacts, holding), .velocity = {}, .acceleration = {}};
@@ -225,8 +239,9 @@ Hold hold(std::span<Contact> contacts, double rest_time, const Vector3d& velocit
         if (contacts[i].holds)
             held.friction = std::max(held.friction, contacts[i].friction);
         else if (nearest.slow(i))
-            contacts[i].holds =
-                contacts[i].keeps(held.velocity + held.frame, held.acceleration, wanted.norm());
+            contacts[i].holds = contacts[i].keeps(
+                held.velocity + held.frame, held.acceleration + drag * (held.frame - contacts[i].velocity),
+                wanted.norm());
     }
     return held;
 }

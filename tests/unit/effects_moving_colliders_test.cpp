@@ -135,6 +135,21 @@ TEST(MovingWall, PushesWhatLiesOnAFloorAlongIt)
     EXPECT_LE((pushed.velocity - Vector3d(0.8, 0, 0)).head<1>().norm(), 1e-12);
 }
 
+// The air's drag pulls on what would move up with the wall, and not on what lies on the floor.
+TEST(MovingWall, LeavesWhatIsBlownOffAFloorBesideItAlone)
+{
+    UniformFields fields = falling();
+    fields.drag = 0.5;
+    fields.wind = {0, 0, 40};
+    Colliders colliders({moving(with(plane({0, 0, 0}, {1, 0, 0}), 0, 0), {0, 0, 100}),
+                         with(plane({0, 0, 0}, {0, 0, 1}), 0, 0)},
+                        fields, frame);
+    const State state = flown(colliders, {{0, 0, 0}, {0, 0, 0}}, 1);
+    const Elapsed whole(fields.drag, frame);
+    EXPECT_NEAR(state.velocity.z(), whole.drift * (0.5 * 40 - fall), 1e-15); // a rounding of 0.17, thrice
+    EXPECT_NEAR(state.position.z(), whole.fall * (0.5 * 40 - fall), 1e-17);
+}
+
 TEST(MovingWall, F10_PassesNobody)
 {
     const ColliderSettings wall = sheet(flat_mesh(41, 41, 1), 1e-3);
