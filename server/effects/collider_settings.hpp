@@ -87,10 +87,12 @@ void for_each_field(ColliderSettings& collider, Visitor&& visit)
               "From a cone's apex to the centre of its base, from one end of a capsule's axis to the other.",
               -1e30, 1e30},
         collider.axis);
-    visit(Field{"file", "",
-                "Of a mesh (Wavefront OBJ) or a heightfield (rows of heights, along x), from the scene's "
-                "folder."},
-          collider.file);
+    visit(
+        Field{
+            "file", "",
+            "Of a mesh (Wavefront OBJ, faces of at most 64 vertices, 256 triangles at each) or a heightfield "
+            "(rows of heights, along x), from the scene's folder."},
+        collider.file);
     visit(Field{"scale", "length", "What 1 is in the file; of a heightfield, in its heights.", 0, 1e30},
           collider.scale);
     visit(Field{"spacing", "length", "Of a heightfield's grid, from row to row and in a row.", 0, 1e30},

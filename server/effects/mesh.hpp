@@ -19,5 +19,12 @@ struct Mesh {
 
 inline constexpr std::size_t max_mesh_vertices = 1U << 20;
 inline constexpr std::size_t max_mesh_triangles = 1U << 21;
+inline constexpr std::size_t max_face_vertices = 64; ///< of a file's faces, which are divided
+
+/// Triangles that meet at a place: what touches one there looks at all of them.
+inline constexpr std::uint32_t max_vertex_triangles = 256;
+
+/// For each vertex the first one at the same place, which may be itself. O(n log n).
+std::vector<std::uint32_t> first_at_each_place(const std::vector<Vector3d>& vertices);
 
 } // namespace slod

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -13,9 +12,10 @@
 
 namespace slod {
 
-Sheet::Sheet(const Mesh& mesh, double thickness) : radius_(0.5 * thickness), tree_({})
+Sheet::Sheet(const Mesh& mesh, double thickness)
+    : radius_(0.5 * thickness), vertices_(mesh.vertices), tree_({})
 {
-    join_vertices(mesh);
+    take_triangles(mesh);
     find_fans();
     const std::vector<Box> all = boxes();
     tree_ = BoxTree(all);
@@ -27,28 +27,10 @@ Sheet::Sheet(const Mesh& mesh, double thickness) : radius_(0.5 * thickness), tre
     }
 }
 
-/// The first of those at the same place stands for all.
-void Sheet::join_vertices(const Mesh& mesh)
+/// Of vertices at the same place the first one stands for all.
+void Sheet::take_triangles(const Mesh& mesh)
 {
-    const auto place = [&](std::uint32_t index) {
-        const Vector3d& x = mesh.vertices[index];
-        return std::tuple(x.x(), x.y(), x.z());
-    };
-    std::vector<std::uint32_t> order(mesh.vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tuple(place(a), a) < std::tuple(place(b), b);
-    });
-    std::vector<std::uint32_t> first_at(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        first_at[order[i]] =
-            i > 0 && place(order[i]) == place(order[i - 1]) ? first_at[order[i - 1]] : order[i];
-    vertices_ = mesh.vertices;
-    take_triangles(mesh, first_at);
-}
-
-void Sheet::take_triangles(const Mesh& mesh, std::span<const std::uint32_t> first_at)
-{
+    const std::vector<std::uint32_t> first_at = first_at_each_place(vertices_);
     for (const Mesh::Triangle& each : mesh.triangles) {
         const Mesh::Triangle triangle{first_at[each[0]], first_at[each[1]], first_at[each[2]]};
         const Vector3d normal =

@@ -38,8 +38,7 @@ private:
 
     Box box_of(const Mesh::Triangle& triangle) const;
     std::vector<Box> boxes() const;
-    void join_vertices(const Mesh& mesh);
-    void take_triangles(const Mesh& mesh, std::span<const std::uint32_t> place_of);
+    void take_triangles(const Mesh& mesh);
     void find_fans();
     std::span<const std::uint32_t> fan(std::uint32_t vertex) const
     {

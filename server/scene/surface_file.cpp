@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/text_lines.hpp"
 
@@ -44,6 +45,9 @@ void add_face(const TextLines& lines, Mesh& mesh)
     const auto& words = lines.words();
     if (words.size() < 4)
         lines.refuse("a face has at least three vertices; write \"f 1 2 3\", or get the whole file.");
+    if (words.size() - 1 > max_face_vertices)
+        lines.refuse("a face of " + std::to_string(words.size() - 1) + " vertices, where " +
+                     std::to_string(max_face_vertices) + " are the most; cut it up.");
     const auto vertex = [&](std::size_t word) { return vertex_of(lines, words[word], mesh.vertices.size()); };
     const std::uint32_t first = vertex(1);
     for (std::size_t word = 2; word + 1 < words.size(); ++word) {
@@ -52,6 +56,22 @@ void add_face(const TextLines& lines, Mesh& mesh)
                          " triangles; use a coarser surface.");
         mesh.triangles.push_back({first, vertex(word), vertex(word + 1)});
     }
+}
+
+void refuse_crowded_vertices(const TextLines& lines, const Mesh& mesh)
+{
+    const std::vector<std::uint32_t> first_at = first_at_each_place(mesh.vertices);
+    std::vector<std::uint32_t> meeting(mesh.vertices.size());
+    for (const auto& [a, b, c] : mesh.triangles)
+        if (first_at[a] != first_at[b] && first_at[b] != first_at[c] && first_at[c] != first_at[a])
+            for (const std::uint32_t vertex : {a, b, c})
+                ++meeting[first_at[vertex]];
+    const auto crowded = std::find_if(meeting.begin(), meeting.end(),
+                                      [](std::uint32_t count) { return count > max_vertex_triangles; });
+    if (crowded != meeting.end())
+        lines.refuse_file(std::to_string(*crowded) + " triangles meet at vertex " +
+                          std::to_string(crowded - meeting.begin() + 1) + ", where " +
+                          std::to_string(max_vertex_triangles) + " are the most; cut the faces about it up.");
 }
 
 Mesh obj_mesh(TextLines& lines)
@@ -69,6 +89,7 @@ Mesh obj_mesh(TextLines& lines)
     }
     if (mesh.triangles.empty())
         lines.refuse_file("there is no face in it; write some (\"f 1 2 3\"), or name another file.");
+    refuse_crowded_vertices(lines, mesh);
     return mesh;
 }
 

@@ -14,7 +14,8 @@ inline constexpr std::uintmax_t max_surface_file_bytes = 256U << 20;
 /// Reads the vertices ("v x y z") and faces ("f 1 2 3", "f 1/1/1 ...", counted backwards when negative) of a
 /// Wavefront OBJ file. Faces of more than three vertices are divided into triangles about their first one;
 /// all that has to do with looks, names and groups is passed over. A file that is malformed, too large or
-/// without a face is refused, with file, line, text and remedy.
+/// without a face is refused, with file, line, text and remedy; so is one with a face of more than
+/// `max_face_vertices` or a place where more than `max_vertex_triangles` meet.
 std::variant<Mesh, Problems> read_obj(const std::filesystem::path& file);
 
 /// Reads heights over a regular grid: lines of as many numbers each, at least 2 by 2; what follows a # is

@@ -37,6 +37,14 @@ protected:
         return testing::AssertionFailure() << "it was taken";
     }
 
+    static std::string face_of(std::size_t vertices)
+    {
+        std::string face = "f";
+        for (std::size_t i = 0; i < vertices; ++i)
+            face += " 1";
+        return face + "\n";
+    }
+
     const ScratchFolder folder_;
     const std::string square_ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\n";
 };
@@ -102,13 +110,38 @@ TEST_F(SurfaceFile, IsRefusedWhereItHasMoreThanTheLimit)
     for (std::size_t i = 0; i <= max_mesh_vertices; ++i)
         many += "v 0 0 0\n";
     EXPECT_TRUE(refused(obj(many), {"s.obj:1048577:", "more than 1048576 vertices; use a coarser surface"}));
-    std::string face = "f";
-    for (int i = 0; i < 1026; ++i)
-        face += " 1";
+    const std::string face = face_of(max_face_vertices);
     std::string faces = "v 0 0 0\n";
-    for (std::size_t i = 0; i < max_mesh_triangles / 1024 + 1; ++i)
-        faces += face + "\n";
-    EXPECT_TRUE(refused(obj(faces), {"s.obj:2050:", "more than 2097152 triangles; use a coarser surface"}));
+    for (std::size_t i = 0; i < max_mesh_triangles / (max_face_vertices - 2) + 1; ++i)
+        faces += face;
+    EXPECT_TRUE(refused(obj(faces), {"s.obj:33827:", "more than 2097152 triangles; use a coarser surface"}));
+}
+
+TEST_F(SurfaceFile, IsRefusedWhereAFaceHasTooManyVertices)
+{
+    const std::string vertices = "v 0 0 0\n";
+    EXPECT_EQ(mesh(vertices + face_of(64)).triangles.size(), 62U);
+    EXPECT_TRUE(refused(obj(vertices + face_of(65)),
+                        {"s.obj:2:", "a face of 65 vertices, where 64 are the most; cut it up"}));
+}
+
+// About the second vertex, and about that place, which every triangle has a vertex of its own at.
+TEST_F(SurfaceFile, IsRefusedWhereTooManyTrianglesShareAVertex)
+{
+    const auto shared = [](std::size_t triangles, bool joined) {
+        std::string text = "v 9 9 9\nv 0 0 0\n";
+        for (std::size_t i = 0; i < triangles; ++i)
+            text += (joined ? "" : "v -0 0 0\n") + ("v 1 0 " + std::to_string(i)) + "\nv 0 1 0.5\nf " +
+                    (joined ? "2" : "-3") + " -2 -1\n";
+        return text;
+    };
+    for (const bool joined : {true, false}) {
+        // Those at (0, 1, 0.5) are as many, and come later.
+        EXPECT_EQ(mesh(shared(256, joined)).triangles.size(), 256U);
+        EXPECT_TRUE(refused(
+            obj(shared(257, joined)),
+            {"s.obj: 257 triangles meet at vertex 2, where 256 are the most", "cut the faces about it up"}));
+    }
 }
 
 TEST_F(SurfaceFile, HasHeightsOverAGrid)
