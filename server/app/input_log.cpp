@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* format_name = "slod-input-log";
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 std::uint64_t hash_from(const std::string& text)
 {

@@ -142,7 +142,7 @@ TEST_F(InputLogTest, AnotherKindOfFileIsNoLog)
     };
     for (const std::string& text :
          {std::string(), std::string("title = \"a scene\"\n"), replaced("slod-input-log", "another-log"),
-          replaced("\"format_version\":1", "\"format_version\":2")}) {
+          replaced("\"format_version\":2", "\"format_version\":1")}) {
         write_file(file_, text);
         EXPECT_NE(problem(), "") << text;
     }
