@@ -163,7 +163,7 @@ void declare_set(CLI::App& app, CommandLine& line)
     add_settings(
         app, "SETTING", line.request,
         "table.key=value as in a scene file, of what may change while it runs: gravity, uniform_gravity, "
-        "uniform_wind, background")
+        "uniform_wind, background, control, server.frame_rate")
         ->required();
     declare_simple(app, line);
 }

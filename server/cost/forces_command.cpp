@@ -19,7 +19,7 @@ std::variant<ParticleSet, Problems> make_bodies(const std::string& model, std::s
     if (const CloudModel* const known = cloud_model(model))
         return cloud(count, seed, known->place);
     auto read = read_bodies(model);
-    if (auto* const problems = std::get_if<Problems>(&read)) {
+    if (auto* const problems = std::get_if<Problems>(&read); problems && !std::filesystem::exists(model)) {
         std::string names;
         for (const CloudModel& known : cloud_models())
             names += (names.empty() ? "" : ", ") + std::string(known.name);

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "core/number_text.hpp"
 #include "sim/plan.hpp"
 
 namespace slod {
@@ -38,6 +39,18 @@ std::string what_it_does(const PlannedEffect& effect)
     return left_out + std::string(effect.active ? effect.acts_on_clusters : "absent");
 }
 
+/// What is chosen for the accuracy that was asked for.
+std::string gravity_line(const GravitySettings& asked)
+{
+    const GravitySettings chosen = with_accuracy(asked);
+    const std::string given = asked.accuracy > 0 ? ", for accuracy " + number_text(asked.accuracy) : "";
+    const std::string bound = chosen.opening == OpeningCriterion::Relative
+                                  ? "force_tolerance " + number_text(chosen.force_tolerance)
+                                  : "opening_angle " + number_text(chosen.opening_angle);
+    return "gravity  " + name_of(chosen.opening) + " opening, " + name_of(chosen.multipoles) + ", " + bound +
+           given + "\n";
+}
+
 std::string updates(const Plan& plan)
 {
     if (plan.clocked)
@@ -55,7 +68,10 @@ std::string explain(const Plan& plan, const SimulationSettings& settings)
     std::string text;
     text += "motion   " + name_of(settings.motion.motion) + "\n";
     text += "flow map " + name_of(plan.map) + (plan.map_is_exact ? ", exact at every cluster size\n" : "\n");
-    text += "update   " + updates(plan) + "\n\nphases\n";
+    text += "update   " + updates(plan) + "\n";
+    if (settings.gravity)
+        text += gravity_line(*settings.gravity);
+    text += "\nphases\n";
     for (std::size_t phase = 0; phase < phase_count; ++phase)
         text += line("  %-34.*s %.*s\n", names(Phase{})[phase], plan.runs[phase] ? "runs" : "absent");
     text += "\neffects\n";

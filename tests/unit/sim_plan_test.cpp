@@ -409,5 +409,19 @@ TEST(PlainestPlan, KeepsThirtyTwoBytesPerParticle)
     EXPECT_EQ(bytes, 32U);
 }
 
+TEST(Plan, ExplainsWhatWasChosenForAnAccuracy)
+{
+    SmallScene scene = small_scene("flow");
+    ASSERT_TRUE(scene.settings.gravity.has_value());
+    scene.settings.gravity = GravitySettings{.accuracy = 7.3e-4}; // of the calibration at 1e-3
+    const std::string text = explain(compile_plan(scene.settings, scene.initial), scene.settings);
+    EXPECT_NE(text.find("gravity  relative opening, quadrupole, force_tolerance 0.00"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find(", for accuracy 0.00073\n"), std::string::npos) << text;
+    scene.settings.gravity.reset();
+    EXPECT_EQ(explain(compile_plan(scene.settings, scene.initial), scene.settings).find("gravity  relative"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace slod::test
