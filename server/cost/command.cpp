@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <thread>
 #include <unistd.h>
@@ -14,12 +13,6 @@ int complain(const Problems& problems)
     for (const std::string& problem : problems)
         std::fprintf(stderr, "slod-cost: %s\n", problem.c_str());
     return wrong;
-}
-
-double milliseconds()
-{
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
 }
 
 int team_size(int threads)

@@ -14,8 +14,6 @@ inline constexpr int failed = 1, wrong = 2; ///< exit codes beside 0
 /// Prints the problems to stderr; returns the exit code.
 int complain(const Problems& problems);
 
-double milliseconds(); ///< of wall time since any fixed moment
-
 /// As asked for; 0: one thread per core.
 int team_size(int threads);
 void add_threads_option(CLI::App& command, int& threads);

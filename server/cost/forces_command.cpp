@@ -104,9 +104,9 @@ ForceReport ForcesCommand::measure(const ParticleSet& bodies) const
     }
     if (tolerance_ > 0)
         gravity.force_tolerance = tolerance_;
-    const double begin_ms = milliseconds();
+    const double begin_ms = wall_milliseconds();
     ForceWorld world(bodies, softening_);
-    const double tree_seconds = 1e-3 * (milliseconds() - begin_ms);
+    const double tree_seconds = 1e-3 * (wall_milliseconds() - begin_ms);
     const ForceReport asked{.model = model_,
                             .bodies = bodies.size(),
                             .threads = team_size(threads_),
@@ -114,7 +114,7 @@ ForceReport ForcesCommand::measure(const ParticleSet& bodies) const
                             .gravity = gravity,
                             .tree_seconds = tree_seconds};
     const ForceReport report =
-        cost::measure(world, exact_forces(bodies, softening_), asked, repeats_, milliseconds);
+        cost::measure(world, exact_forces(bodies, softening_), asked, repeats_, wall_milliseconds);
     if (!accelerations_.empty())
         write_accelerations(accelerations_, world.accelerations());
     return report;

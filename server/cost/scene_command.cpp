@@ -21,7 +21,7 @@ namespace {
 /// On a terminal, in place: what runs, how far everything is, and how long it will take.
 void show_progress(const std::string& name, double share, double began_ms)
 {
-    const double left_s = share > 0 ? (milliseconds() - began_ms) * (1 / share - 1) / 1000 : 0;
+    const double left_s = share > 0 ? (wall_milliseconds() - began_ms) * (1 / share - 1) / 1000 : 0;
     std::fprintf(stderr, "\r%3.0f %%  %-28s %4.0f s left ", 100 * share, name.c_str(), left_s);
 }
 
@@ -79,11 +79,11 @@ int SceneCommand::run() const
         plan.frames = frames_;
     const int threads = team_size(threads_);
     const bool on_terminal = isatty(STDERR_FILENO) != 0;
-    const double began = milliseconds();
+    const double began = wall_milliseconds();
     ThreadTeam team(threads);
     Sweep sweep;
     team.run([&] {
-        sweep = run_sweep(scene.simulation, initial, plan, milliseconds,
+        sweep = run_sweep(scene.simulation, initial, plan, wall_milliseconds,
                           [&](const std::string& name, double share) {
                               if (on_terminal)
                                   show_progress(name, share, began);

@@ -1,6 +1,7 @@
 #include "cost/trial.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "sim/simulation.hpp"
 
 namespace slod::cost {
+
+double wall_milliseconds()
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
 
 std::string Setting::name() const
 {

@@ -32,6 +32,7 @@ struct Trial {
 
 /// Milliseconds of wall time since any fixed moment.
 using Clock = std::function<double()>;
+double wall_milliseconds(); ///< by the system's clock
 
 /// Runs `frames` frames from `initial`. `progress` is told of each. The times of the first tenth are left
 /// out: memory grows there.

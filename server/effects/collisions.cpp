@@ -7,42 +7,22 @@ namespace slod {
 
 void Collisions::reserve(const ClusterTable& clusters, std::size_t member_count)
 {
-    const std::size_t slots = clusters.slot_capacity();
-    make_room(members_, member_count);
+    remaking_.reserve(clusters, member_count, member_count); // each may be alone
+    outcomes_.reserve(clusters.slot_capacity());
     make_room(fates_, member_count);
-    marks_.reserve(slots);
-    struck_.reserve(slots);
-    ending_.reserve(slots);
-    make_room(measured_, member_count);
-    grouping_.reserve(member_count, 2 * slots, slots);
 }
 
 void Collisions::fly_members(const UpdateContext& context)
 {
-    const ClusterTable& clusters = context.store.clusters;
     colliders_.set_frame_end(double(context.frame) * context.step);
-    marks_.resize(clusters.slot_count());
-    for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
-        for (std::size_t slot = first; slot < last; ++slot)
-            marks_[slot] = clusters.alive(slot) && may_be_struck(context, slot) ? 1 : 0;
-    });
-    struck_.clear();
-    std::uint32_t total = 0;
-    for (std::uint32_t slot = 0; slot < marks_.size(); ++slot) {
-        if (marks_[slot] == 0)
-            continue;
-        struck_.push_back({.slot = {slot},
-                           .first = total,
-                           .count = clusters.count[slot],
-                           .position = clusters.position[slot],
-                           .velocity = clusters.velocity[slot]});
-        total += clusters.count[slot];
-    }
-    members_.resize(total);
-    fates_.resize(total);
-    for_each_block(struck_.size(), 4, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            fly(context, struck_[i]);
+    const UpdateContext before{context.store, context.frame - 1, context.step};
+    remaking_.find(before, [&](std::size_t slot) { return may_be_struck(context, slot); });
+    outcomes_.resize(remaking_.mapped().size());
+    fates_.resize(remaking_.member_count());
+    remaking_.change([&](const Remaking::Mapped& struck, std::span<Particle> members) {
+        Outcome& outcome = outcomes_[std::size_t(&struck - remaking_.mapped().data())];
+        outcome = fly(context, struck, members);
+        return outcome.moved;
     });
 }
 
@@ -77,18 +57,19 @@ bool Collisions::may_be_struck(const UpdateContext& context, std::size_t slot) c
                                 felt.fields);
 }
 
-void Collisions::fly(const UpdateContext& context, Struck& struck)
+Collisions::Outcome Collisions::fly(const UpdateContext& context, const Remaking::Mapped& struck,
+                                    std::span<Particle> members)
 {
     const ClusterTable& clusters = context.store.clusters;
-    const std::span<Particle> members = std::span(members_).subspan(struck.first, struck.count);
-    map_out(context.store, struck.slot, context.frame - 1, members);
+    const std::size_t slot = struck.slot.index;
     // What the kicks give at the ends of the frame acts all through it where something may be hit meanwhile:
     // half of it is taken back, and the other half is yet to come. Without drag free flight is the same
     // either way, up to rounding; with it they differ in third order of the step.
     const Vector3d acceleration =
-        clusters.columns.acceleration ? clusters.acceleration[struck.slot.index] : Vector3d(0, 0, 0);
+        clusters.columns.acceleration ? clusters.acceleration[slot] : Vector3d(0, 0, 0);
     const Vector3d half_kick = (0.5 * context.step) * acceleration;
-    const Air::Felt felt = felt_by(context, struck.slot.index);
+    const Air::Felt felt = felt_by(context, slot);
+    Outcome outcome{clusters.position[slot], clusters.velocity[slot]};
     for (std::uint32_t i = 0; i < struck.count; ++i) {
         Particle& member = members[i];
         const Vector3d position = member.position, velocity = member.velocity;
@@ -98,110 +79,87 @@ void Collisions::fly(const UpdateContext& context, Struck& struck)
         const auto met = colliders_.fly(member.position, member.velocity, context.step, acceleration, fields);
         member.velocity -= half_kick;
         fates_[struck.first + i] = met.killed ? Fate::Killed : met.touched ? Fate::Touching : Fate::Free;
-        struck.touched = struck.touched || met.touched;
-        struck.moved = struck.moved || member.position != position || member.velocity != velocity;
-        struck.impacts += met.impacts;
-        struck.cut_off += met.cut_off ? 1 : 0;
-        struck.killed += met.killed ? 1 : 0;
+        outcome.touched = outcome.touched || met.touched;
+        outcome.moved += member.position != position || member.velocity != velocity ? 1 : 0;
+        outcome.impacts += met.impacts;
+        outcome.cut_off += met.cut_off ? 1 : 0;
+        outcome.killed += met.killed ? 1 : 0;
     }
+    return outcome;
 }
 
 std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts)
 {
     ClusterTable& clusters = context.store.clusters;
-    grouping_.clear();
-    ending_.clear();
-    measured_.clear();
     left_out_ = 0;
-    for (const Struck& struck : struck_) {
-        counts.impacts += struck.impacts;
-        counts.impacts_cut_off += struck.cut_off;
-        counts.killed += struck.killed;
-        if (!keep(clusters, struck))
-            gather(clusters, struck, context.frame);
+    for (std::size_t i = 0; i < outcomes_.size(); ++i) {
+        const Remaking::Mapped& struck = remaking_.mapped()[i];
+        const Outcome& outcome = outcomes_[i];
+        counts.impacts += outcome.impacts;
+        counts.impacts_cut_off += outcome.cut_off;
+        counts.killed += outcome.killed;
+        if (keep(clusters, struck, outcome))
+            continue;
+        ++counts.taken_apart;
+        left_out_ += outcome.killed;
+        take_apart(clusters, struck, context.frame);
     }
-    counts.struck += struck_.size();
-    counts.taken_apart += ending_.size();
-    if (ending_.empty())
-        return 0;
-    end_clusters(tree, ending_, context);
-    form_groups_in_order(grouping_, context);
-    for (std::size_t group = 0; group < grouping_.groups.size(); ++group)
-        set_measured(clusters, grouping_.slots[grouping_.groups[group].first_slot].index, measured_[group]);
-    link_where_they_are(tree, grouping_, context);
+    counts.struck += outcomes_.size();
+    remaking_.form(tree, context);
     return left_out_;
 }
 
 /// Whether the cluster goes on, which it does where its map carries the members to where they are, where they
 /// rest, and where it is a single particle, which is given its outcome if it touched anything.
-bool Collisions::keep(ClusterTable& clusters, const Struck& struck) const
+bool Collisions::keep(ClusterTable& clusters, const Remaking::Mapped& struck, const Outcome& outcome) const
 {
     const std::size_t slot = struck.slot.index;
     const bool withheld = clusters.columns.withheld && !clusters.withheld[slot].isZero(0);
     const bool carried = rules_.carries_members || struck.count == 1;
-    if (struck.killed > 0)
+    if (outcome.killed > 0)
         return false;
-    const bool free = carried && !struck.touched && !withheld;
+    const bool free = carried && !outcome.touched && !withheld;
     if (free)
         return true;
     if (struck.count == 1) {
-        clusters.position[slot] = members_[struck.first].position;
-        clusters.velocity[slot] = members_[struck.first].velocity;
+        const Particle& particle = remaking_.members_of(struck).front();
+        clusters.position[slot] = particle.position;
+        clusters.velocity[slot] = particle.velocity;
         if (withheld)
             clusters.withheld[slot].setZero();
         return true;
     }
     if (withheld)
         return false;
-    const bool rests = !struck.moved && !rules_.full_map && clusters.speed_max[slot] == 0;
+    const bool rests = outcome.moved == 0 && !rules_.full_map && clusters.speed_max[slot] == 0;
     if (rests) {
-        clusters.position[slot] = struck.position;
-        clusters.velocity[slot] = struck.velocity;
+        clusters.position[slot] = outcome.position;
+        clusters.velocity[slot] = outcome.velocity;
     }
     return rests;
 }
 
 /// Lets the cluster end, and groups its members: those that touched nothing stay together where the map
 /// carries members; the others do where it is exact wherever they go, and else each is alone.
-void Collisions::gather(const ClusterTable& clusters, const Struck& struck, std::uint64_t frame)
+void Collisions::take_apart(const ClusterTable& clusters, const Remaking::Mapped& struck, std::uint64_t frame)
 {
-    ending_.push_back(struck.slot);
-    left_out_ += struck.killed;
+    remaking_.end(struck);
+    const std::span<const Particle> members = remaking_.members_of(struck);
     for (const Fate fate : {Fate::Free, Fate::Touching}) {
-        const auto first = std::uint32_t(grouping_.particles.size());
         const bool together = fate == Fate::Touching ? rules_.exact : rules_.carries_members;
-        for (std::uint32_t i = struck.first; i < struck.first + struck.count; ++i) {
-            if (fates_[i] != fate)
+        for (std::uint32_t i = 0; i < struck.count; ++i) {
+            if (fates_[struck.first + i] != fate)
                 continue;
-            if (members_[i].expiry_frame <= frame) {
+            if (members[i].expiry_frame <= frame) {
                 ++left_out_;
                 continue;
             }
-            grouping_.particles.push_back(members_[i]);
+            remaking_.take(members[i]);
             if (!together)
-                add_group(clusters, struck, std::uint32_t(grouping_.particles.size() - 1));
+                remaking_.close_group(clusters, struck);
         }
-        if (together)
-            add_group(clusters, struck, first);
+        remaking_.close_group(clusters, struck);
     }
-}
-
-/// Makes a group, of one cluster, of the particles from `first` on.
-void Collisions::add_group(const ClusterTable& clusters, const Struck& struck, std::uint32_t first)
-{
-    const auto end = std::uint32_t(grouping_.particles.size());
-    const std::size_t slot = struck.slot.index;
-    if (first == end)
-        return;
-    for (std::uint32_t i = first; i < end; ++i) {
-        grouping_.place.push_back(grouping_.particles[i].position);
-        grouping_.pull.push_back(clusters.columns.acceleration ? float(clusters.pull[slot]) : 0);
-    }
-    measured_.push_back(measured(clusters, slot));
-    grouping_.groups.push_back({.pool = {clusters.region[slot], clusters.pool[slot]},
-                                .first = first,
-                                .count = end - first,
-                                .clusters = 1});
 }
 
 } // namespace slod

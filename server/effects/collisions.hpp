@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "effects/air.hpp"
 #include "effects/colliders.hpp"
-#include "effects/measured.hpp"
-#include "tree/grouping.hpp"
-#include "tree/slod_tree.hpp"
+#include "effects/remaking.hpp"
 
 namespace slod {
 
@@ -47,7 +44,7 @@ public:
     /// and 65,536 more. Should there be even more at once, memory for them is taken in that frame.
     std::size_t expected_members(std::size_t particle_count) const
     {
-        return std::min(particle_count, 2 * members_.size() + 65'536);
+        return remaking_.expected_members(particle_count, 65'536);
     }
 
     /// Provides memory for so many members, in the clusters there is room for.
@@ -63,13 +60,11 @@ public:
     std::uint64_t put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts);
 
 private:
-    /// A cluster that is struck, where it was, and how its members fared.
-    struct Struck {
-        ClusterSlot slot;
-        std::uint32_t first, count; ///< in `members_`
-        Vector3d position, velocity;
-        bool touched = false; ///< any of them
-        bool moved = false;   ///< any of them
+    /// Where a struck cluster was, and how its members fared.
+    struct Outcome {
+        Vector3d position{0, 0, 0}, velocity{0, 0, 0};
+        bool touched = false;    ///< any of them
+        std::uint32_t moved = 0; ///< members whose place or velocity is another
         std::uint64_t impacts = 0, cut_off = 0, killed = 0;
     };
 
@@ -77,21 +72,16 @@ private:
 
     bool may_be_struck(const UpdateContext& context, std::size_t slot) const;
     Air::Felt felt_by(const UpdateContext& context, std::size_t slot) const;
-    void fly(const UpdateContext& context, Struck& struck);
-    bool keep(ClusterTable& clusters, const Struck& struck) const;
-    void gather(const ClusterTable& clusters, const Struck& struck, std::uint64_t frame);
-    void add_group(const ClusterTable& clusters, const Struck& struck, std::uint32_t first);
+    Outcome fly(const UpdateContext& context, const Remaking::Mapped& struck, std::span<Particle> members);
+    bool keep(ClusterTable& clusters, const Remaking::Mapped& struck, const Outcome& outcome) const;
+    void take_apart(const ClusterTable& clusters, const Remaking::Mapped& struck, std::uint64_t frame);
 
     Colliders colliders_;
     Rules rules_;
     const Air* air_;
-    std::vector<std::uint8_t> marks_; ///< by slot: struck
-    std::vector<Struck> struck_;      ///< in order of slots
-    std::vector<Particle> members_;   ///< of the struck, mapped out
-    std::vector<Fate> fates_;         ///< by member
-    std::vector<ClusterSlot> ending_;
-    Grouping grouping_;
-    std::vector<Measured> measured_; ///< by group
+    Remaking remaking_;             ///< of the struck
+    std::vector<Outcome> outcomes_; ///< by cluster that is mapped out
+    std::vector<Fate> fates_;       ///< by member
     std::uint64_t left_out_ = 0;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,11 +35,10 @@ public:
     /// Provides memory for so many members, in the clusters there is room for.
     void reserve(const ClusterTable& clusters, std::size_t member_count);
 
-    /// Members expected to be looked at in a frame, of so many particles: twice as many as in the last one
-    /// and 4,096 more.
+    /// Members expected to be looked at in a frame, of so many particles.
     std::size_t expected_members(std::size_t particle_count) const
     {
-        return std::min(particle_count, 2 * remaking_.member_count() + 4096);
+        return remaking_.expected_members(particle_count);
     }
 
     /// Before clusters move through frame `context.frame`: where sinks may be flown through, keeps in mind

@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/portable_math.hpp"
 #include "core/random.hpp"
+#include "effects/solid.hpp"
 
 namespace slod {
 
@@ -18,9 +19,7 @@ EmitterAxes axes_along(const Vector3d& direction)
 {
     EmitterAxes axes;
     axes.forward = direction.stableNormalized();
-    int flattest = 0;
-    axes.forward.cwiseAbs().minCoeff(&flattest);
-    axes.side = axes.forward.cross(Vector3d(Vector3d::Unit(flattest))).normalized();
+    axes.side = across(axes.forward);
     axes.other_side = axes.forward.cross(axes.side);
     return axes;
 }

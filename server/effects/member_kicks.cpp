@@ -27,7 +27,7 @@ MemberKicks::MemberKicks(const std::optional<SpeedLimitSettings>& limit,
 
 std::size_t MemberKicks::expected_members(std::size_t particle_count) const
 {
-    return reaches_all() ? particle_count : std::min(particle_count, 2 * remaking_.member_count() + 4096);
+    return reaches_all() ? particle_count : remaking_.expected_members(particle_count);
 }
 
 void MemberKicks::update(SlodTree& tree, const UpdateContext& context)

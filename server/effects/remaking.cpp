@@ -4,15 +4,15 @@
 
 namespace slod {
 
-void Remaking::reserve(const ClusterTable& clusters, std::size_t member_count)
+void Remaking::reserve(const ClusterTable& clusters, std::size_t member_count, std::size_t group_count)
 {
     const std::size_t slots = clusters.slot_capacity();
     make_room(members_, member_count);
     marks_.reserve(slots);
     mapped_.reserve(slots);
     ending_.reserve(slots);
-    measured_.reserve(slots);
-    grouping_.reserve(member_count, slots, slots);
+    make_room(measured_, group_count);
+    grouping_.reserve(member_count, group_count, slots);
 }
 
 /// Begins anew with the clusters that are marked, and room for their members.
@@ -35,26 +35,30 @@ void Remaking::list_marked(const ClusterTable& clusters)
 void Remaking::remake(const Mapped& mapped, const UpdateContext& context)
 {
     const ClusterTable& clusters = context.store.clusters;
+    end(mapped);
+    for (const Particle& member : members_of(mapped))
+        if (member.expiry_frame > context.frame)
+            take(member);
+    close_group(clusters, mapped, clusters.slab[mapped.slot.index].capacity - mapped.count);
+}
+
+void Remaking::close_group(const ClusterTable& clusters, const Mapped& mapped, std::uint32_t spare_rows)
+{
+    const auto first = std::uint32_t(grouping_.place.size()), end = std::uint32_t(grouping_.particles.size());
+    if (first == end)
+        return;
     const std::size_t slot = mapped.slot.index;
-    ending_.push_back(mapped.slot);
-    const auto first = std::uint32_t(grouping_.particles.size());
     const float pull = clusters.columns.acceleration ? float(clusters.pull[slot]) : 0;
-    for (const Particle& member : members_of(mapped)) {
-        if (member.expiry_frame <= context.frame)
-            continue;
-        grouping_.particles.push_back(member);
-        grouping_.place.push_back(member.position);
+    for (std::uint32_t i = first; i < end; ++i) {
+        grouping_.place.push_back(grouping_.particles[i].position);
         grouping_.pull.push_back(pull);
     }
-    const auto count = std::uint32_t(grouping_.particles.size()) - first;
-    if (count == 0)
-        return;
     measured_.push_back(measured(clusters, slot));
     grouping_.groups.push_back({.pool = {clusters.region[slot], clusters.pool[slot]},
                                 .first = first,
-                                .count = count,
+                                .count = end - first,
                                 .clusters = 1,
-                                .spare_rows = clusters.slab[slot].capacity - mapped.count});
+                                .spare_rows = spare_rows});
 }
 
 void Remaking::form(SlodTree& tree, const UpdateContext& context)

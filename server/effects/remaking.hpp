@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,8 +24,21 @@ public:
         std::uint32_t changed = 0;  ///< members
     };
 
-    /// Provides memory for so many members, in the clusters there is room for.
-    void reserve(const ClusterTable& clusters, std::size_t member_count);
+    /// Members expected to be mapped out in a frame, of so many particles: twice as many as in the last one,
+    /// and so many more.
+    std::size_t expected_members(std::size_t particle_count, std::size_t more = 4096) const
+    {
+        return std::min(particle_count, 2 * members_.size() + more);
+    }
+
+    /// Provides memory for so many members, in the clusters there is room for, and for groups of them.
+    void reserve(const ClusterTable& clusters, std::size_t member_count, std::size_t group_count);
+
+    /// The same where each cluster that ends leaves one group.
+    void reserve(const ClusterTable& clusters, std::size_t member_count)
+    {
+        reserve(clusters, member_count, clusters.slot_capacity());
+    }
 
     /// Maps out the clusters that `reaches(slot)` says, as they are after `context.frame` frames. It is
     /// called in parallel.
@@ -61,11 +75,22 @@ public:
     {
         return std::span(members_).subspan(mapped.first, mapped.count);
     }
+    std::span<const Particle> members_of(const Mapped& mapped) const
+    {
+        return std::span(members_).subspan(mapped.first, mapped.count);
+    }
     std::size_t member_count() const { return members_.size(); } ///< of all that are mapped out
 
     /// Lets a cluster end, and has it formed anew of those members that do not die by the frame, with the
     /// room that it had for strays.
     void remake(const Mapped& mapped, const UpdateContext& context);
+
+    // The same in parts, for clusters that leave several groups, or none.
+    void end(const Mapped& mapped) { ending_.push_back(mapped.slot); }
+    void take(const Particle& member) { grouping_.particles.push_back(member); }
+
+    /// Makes one group, if there are any, of the members taken since the last one, all of one cluster.
+    void close_group(const ClusterTable& clusters, const Mapped& mapped, std::uint32_t spare_rows = 0);
 
     /// Forms what is to be remade, and puts it where it is.
     void form(SlodTree& tree, const UpdateContext& context);

@@ -101,7 +101,7 @@ void Grouping::reserve(std::size_t particle_count, std::size_t group_count, std:
     make_room(order, particle_count);
     make_room(keys, particle_count);
     make_room(ordered, particle_count);
-    groups.reserve(group_count);
+    make_room(groups, group_count);
     slots.reserve(cluster_count);
 }
 
