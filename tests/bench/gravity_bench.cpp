@@ -1,7 +1,7 @@
 // One evaluation of the forces between single particles, by number, accuracy and threads: time, error and
 // cost.
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -18,12 +18,6 @@
 namespace {
 
 using namespace slod;
-
-double milliseconds()
-{
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 struct Table {
     std::string model = "plummer";
@@ -48,7 +42,7 @@ void measure(const Table& table, std::size_t count, int threads, const Row& row)
                                           .threads = threads,
                                           .softening = table.softening,
                                           .gravity = {.accuracy = accuracy}};
-            row(cost::measure(world, exact, asked, table.repeats, milliseconds));
+            row(cost::measure(world, exact, asked, table.repeats, cost::wall_milliseconds));
         }
     });
 }

@@ -32,19 +32,6 @@ SmallScene scene_in_fields()
     return scene;
 }
 
-/// The state's hash after some lives of clusters.
-std::uint64_t hash_of(const SmallScene& scene, int threads = 2)
-{
-    std::uint64_t hash = 0;
-    ThreadTeam(threads).run([&] {
-        Simulation simulation(scene.settings, scene.initial, {});
-        for (int frame = 0; frame < 40; ++frame)
-            simulation.step({});
-        hash = simulation.state_hash();
-    });
-    return hash;
-}
-
 template <class F>
 constexpr std::size_t row_of()
 {

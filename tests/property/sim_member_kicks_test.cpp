@@ -22,19 +22,6 @@ SmallScene cloud_at_rest(std::uint32_t count)
     return scene;
 }
 
-std::uint64_t hash_of(const SmallScene& scene, int threads, int frames)
-{
-    std::uint64_t hash = 0;
-    ThreadTeam(threads).run([&] {
-        Simulation simulation(scene.settings, scene.initial, {});
-        for (int frame = 0; frame < frames; ++frame)
-            simulation.step({});
-        EXPECT_EQ(simulation.problems(), Problems{});
-        hash = simulation.state_hash();
-    });
-    return hash;
-}
-
 // Without drag the variance of a component grows by s^2 a unit of time. Of 3 x 4000 numbers its estimate
 // scatters by sqrt(2 / 12000), 1.3 %.
 TEST(Brownian, HeatsInProportionToTheTime)

@@ -187,15 +187,15 @@ TEST(Sinks, OutOfReachChangeNoBit)
 {
     for (const char* name : {"fountain", "flow", "rigid_obstacles", "mixture", "regions"}) {
         SmallScene scene = small_scene(name);
-        const auto hash_of = [&] {
+        const auto hash_undrained = [&] {
             Simulation simulation(scene.settings, scene.initial, {});
             for (int frame = 0; frame < 40; ++frame)
                 EXPECT_EQ(simulation.step({}).counts.drained, 0U);
             return simulation.state_hash();
         };
-        const std::uint64_t without = hash_of();
+        const std::uint64_t without = hash_undrained();
         scene.settings.sinks = {{.name = "far", .position = {0, 0, -1e6}}};
-        EXPECT_EQ(hash_of(), without) << name;
+        EXPECT_EQ(hash_undrained(), without) << name;
     }
 }
 
@@ -237,19 +237,9 @@ TEST(Sinks, HaveTheSameBitsAtAnyNumberOfThreads)
 {
     for (const char* name : {"sinks", "attracted_sink"}) {
         const SmallScene scene = small_scene(name);
-        const auto hash_with = [&](int threads) {
-            std::uint64_t hash = 0;
-            ThreadTeam(threads).run([&] {
-                Simulation simulation(scene.settings, scene.initial, {});
-                for (int frame = 0; frame < 40; ++frame)
-                    simulation.step({});
-                hash = simulation.state_hash();
-            });
-            return hash;
-        };
-        const std::uint64_t alone = hash_with(1);
-        EXPECT_EQ(hash_with(3), alone) << name;
-        EXPECT_EQ(hash_with(8), alone) << name;
+        const std::uint64_t alone = hash_of(scene, 1);
+        EXPECT_EQ(hash_of(scene, 3), alone) << name;
+        EXPECT_EQ(hash_of(scene, 8), alone) << name;
     }
 }
 

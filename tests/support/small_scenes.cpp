@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/parallel.hpp"
+#include "sim/simulation.hpp"
 #include "support/field_tables.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
@@ -329,6 +331,20 @@ SmallScene small_scene(const std::string& name)
         if (scene.name == name)
             return scene;
     throw std::invalid_argument("no small scene " + name);
+}
+
+std::uint64_t hash_of(const SmallScene& scene, int threads, int frames)
+{
+    std::uint64_t hash = 0;
+    ThreadTeam(threads).run([&] {
+        Simulation simulation(scene.settings, scene.initial, {});
+        for (int frame = 0; frame < frames; ++frame)
+            simulation.step({});
+        if (const Problems problems = simulation.problems(); !problems.empty())
+            throw std::logic_error(scene.name + ": " + problems.front());
+        hash = simulation.state_hash();
+    });
+    return hash;
 }
 
 } // namespace slod::test

@@ -45,4 +45,7 @@ std::vector<SmallScene> small_scenes();
 /// The one of that name.
 SmallScene small_scene(const std::string& name);
 
+/// The state's hash after so many frames, in which nothing may go wrong.
+std::uint64_t hash_of(const SmallScene& scene, int threads = 2, int frames = 40);
+
 } // namespace slod::test

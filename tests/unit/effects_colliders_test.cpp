@@ -7,27 +7,13 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "effects/colliders.hpp"
+#include "support/falling_particle.hpp"
 #include "support/random_draws.hpp"
 #include "support/solids.hpp"
 
 // How a single particle fares among colliders.
 namespace slod::test {
 namespace {
-
-constexpr double frame = 1.0 / 60;
-constexpr double fall = 9.81;
-
-UniformFields falling()
-{
-    UniformFields fields;
-    fields.gravity = {0, 0, -fall};
-    return fields;
-}
-
-struct State {
-    Vector3d position, velocity;
-};
 
 /// Where a particle is after so many frames.
 State flown(const Colliders& colliders, State state, int frames = 1, double step = frame)
@@ -346,21 +332,7 @@ TEST(Colliders, NeverMissAClusterWhoseMemberTouches)
     fields.drag = 2;
     fields.wind = {4, -3, 1};
     const Colliders colliders(one_of_each(), fields, 0.1);
-    int free = 0, touching = 0;
-    for (std::uint64_t i = 0; i < 100'000; ++i) {
-        Random random(30, 0, i);
-        const Vector3d centre = Vector3d(0, 0, 3) + 3 * random.uniform() * random_direction(random);
-        const Vector3d velocity = 20 * random.uniform() * random_direction(random);
-        const double radius = random.uniform();
-        State member{centre + radius * random.uniform() * random_direction(random), velocity};
-        const bool may = colliders.may_touch(centre, velocity, radius, 0.1);
-        const bool does = colliders.fly(member.position, member.velocity, 0.1).touched;
-        ASSERT_FALSE(does && !may) << "draw " << i;
-        free += may ? 0 : 1;
-        touching += does ? 1 : 0;
-    }
-    EXPECT_GT(free, 10'000);
-    EXPECT_GT(touching, 1000);
+    expect_no_touch_missed(colliders, 100'000, 10'000);
 }
 
 } // namespace

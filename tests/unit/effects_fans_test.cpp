@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "effects/colliders.hpp"
+#include "support/falling_particle.hpp"
 #include "support/meshes.hpp"
 #include "support/solids.hpp"
 
@@ -12,16 +12,7 @@
 namespace slod::test {
 namespace {
 
-constexpr double frame = 1.0 / 60;
-constexpr double fall = 9.81;
 constexpr double thickness = 1e-2;
-
-UniformFields falling()
-{
-    UniformFields fields;
-    fields.gravity = {0, 0, -fall};
-    return fields;
-}
 
 struct Fan {
     std::uint32_t triangles;

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "effects/colliders.hpp"
+#include "support/falling_particle.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
 #include "support/solids.hpp"
@@ -12,20 +12,6 @@
 // Colliders in uniform motion: what happens to a particle is what who moves with them sees.
 namespace slod::test {
 namespace {
-
-constexpr double frame = 1.0 / 60;
-constexpr double fall = 9.81;
-
-UniformFields falling()
-{
-    UniformFields fields;
-    fields.gravity = {0, 0, -fall};
-    return fields;
-}
-
-struct State {
-    Vector3d position, velocity;
-};
 
 ColliderSettings moving(ColliderSettings collider, const Vector3d& velocity)
 {
@@ -177,21 +163,7 @@ TEST(MovingColliders, NeverMissAClusterWhoseMemberTouches)
         each.velocity = 15 * random_direction(directions);
     Colliders colliders(all, falling(), 0.1);
     colliders.set_frame_end(0.2);
-    int free = 0, touching = 0;
-    for (std::uint64_t i = 0; i < 50'000; ++i) {
-        Random random(30, 0, i);
-        const Vector3d centre = Vector3d(0, 0, 3) + 3 * random.uniform() * random_direction(random);
-        const Vector3d velocity = 20 * random.uniform() * random_direction(random);
-        const double radius = random.uniform();
-        State member{centre + radius * random.uniform() * random_direction(random), velocity};
-        const bool may = colliders.may_touch(centre, velocity, radius, 0.1);
-        const bool does = colliders.fly(member.position, member.velocity, 0.1).touched;
-        ASSERT_FALSE(does && !may) << "draw " << i;
-        free += may ? 0 : 1;
-        touching += does ? 1 : 0;
-    }
-    EXPECT_GT(free, 5'000);
-    EXPECT_GT(touching, 1000);
+    expect_no_touch_missed(colliders, 50'000, 5'000);
 }
 
 } // namespace

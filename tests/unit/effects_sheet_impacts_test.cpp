@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "effects/colliders.hpp"
+#include "support/falling_particle.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
 #include "support/solids.hpp"
@@ -13,20 +13,6 @@
 // How a single particle fares on sheets of triangles: as on the solid that they make, seams or not.
 namespace slod::test {
 namespace {
-
-constexpr double frame = 1.0 / 60;
-constexpr double fall = 9.81;
-
-UniformFields falling()
-{
-    UniformFields fields;
-    fields.gravity = {0, 0, -fall};
-    return fields;
-}
-
-struct State {
-    Vector3d position, velocity;
-};
 
 double energy(const State& state)
 {

@@ -1,7 +1,7 @@
+#include "scene_contents.hpp"
 #include "scene_support.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,56 +9,11 @@
 
 #include "core/random.hpp"
 #include "scene/scene_check.hpp"
-#include "scene/sections.hpp"
 #include "scene/value_text.hpp"
 
 namespace slod::test {
 
 namespace {
-
-/// A value by its bits, so that equal means the same number and nothing less.
-template <class T>
-std::string bits_of(const T& value)
-{
-    if constexpr (std::is_same_v<T, std::string>)
-        return value;
-    else if constexpr (std::is_same_v<T, double>)
-        return std::to_string(std::bit_cast<std::uint64_t>(value));
-    else if constexpr (std::is_same_v<T, Vector3d>)
-        return bits_of(value.x()) + " " + bits_of(value.y()) + " " + bits_of(value.z());
-    else if constexpr (std::is_same_v<T, NumberPairs>) {
-        std::string all;
-        for (const auto& [first, second] : value)
-            all += bits_of(first) + " " + bits_of(second) + " ";
-        return all;
-    } else
-        return std::to_string(std::uint64_t(value));
-}
-
-/// All that a scene says, by key; an absent effect has no keys.
-std::map<std::string, std::string> contents(Scene scene)
-{
-    std::map<std::string, std::string> all;
-    const auto add = [&](const std::string& prefix, auto& settings) {
-        all[prefix] = "there";
-        for_each_field(settings, [&](const Field& field, const auto& value) {
-            all[prefix + "." + std::string(field.key)] = bits_of(value);
-        });
-    };
-    for_each_section(scene, [&]<class Settings>(const Section& section, Settings& settings) {
-        const std::string name(section.name);
-        if constexpr (requires { settings.at(0); }) {
-            for (std::size_t i = 0; i < settings.size(); ++i)
-                add(name + "." + std::to_string(i), settings[i]);
-        } else if constexpr (requires { settings.value(); }) {
-            if (settings)
-                add(name, *settings);
-        } else {
-            add(name, settings);
-        }
-    });
-    return all;
-}
 
 /// Gives every field some value that it may have.
 class Scrambler {
@@ -241,107 +196,6 @@ Scene random_scene(std::uint64_t seed)
     if (scene.initial.model == InitialModel::None)
         simulation.background.max_breadth = 3;
     return scene;
-}
-
-class ShippedScene : public testing::TestWithParam<std::string> {
-protected:
-    static std::filesystem::path file(const std::string& name)
-    {
-        return std::filesystem::path(SLOD_SCENES) / (name + ".toml");
-    }
-    static Scene read(const std::filesystem::path& file, const std::vector<std::string>& overrides = {})
-    {
-        const auto loaded = load_scene(file, overrides);
-        if (const auto* const found = std::get_if<Problems>(&loaded))
-            for (const std::string& problem : *found)
-                ADD_FAILURE() << problem;
-        return std::holds_alternative<Scene>(loaded) ? std::get<Scene>(loaded) : Scene{};
-    }
-};
-
-TEST_P(ShippedScene, HasNoProblems)
-{
-    EXPECT_FALSE(read(file(GetParam())).title.empty());
-}
-
-TEST_P(ShippedScene, ComesBackFromItsOwnText)
-{
-    const Scene scene = read(file(GetParam()));
-    const auto again = load_scene({.name = "again", .text = to_toml(scene), .folder = SLOD_SCENES}, {});
-    ASSERT_TRUE(std::holds_alternative<Scene>(again)) << std::get<Problems>(again).front();
-    EXPECT_EQ(contents(std::get<Scene>(again)), contents(scene));
-}
-
-TEST_P(ShippedScene, ExplainsEveryKey)
-{
-    // By a comment in its line. Of tables alike, one is enough; a title speaks for itself.
-    std::ifstream stream(file(GetParam()));
-    std::map<std::string, bool> explained;
-    std::string table;
-    for (std::string line; std::getline(stream, line);) {
-        if (line.starts_with('['))
-            table = line.substr(0, line.rfind(']') + 1);
-        if (const auto equals = line.find(" = "); equals != std::string::npos && line[0] != '#')
-            explained[table + " " + line.substr(0, equals)] |= line.find('#') != std::string::npos;
-    }
-    EXPECT_GT(explained.size(), 10U);
-    for (const auto& [key, has_comment] : explained)
-        EXPECT_TRUE(has_comment || key == " title") << key;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
-                         testing::Values("bowl", "cones", "fountain", "galaxy", "galaxy-collision",
-                                         "moving-roi", "paper-fountain"));
-
-TEST_F(ShippedScene, OfTheCollisionHasTheFilesUnits)
-{
-    // GADGET's own constant for this file; it gives six digits.
-    const Scene scene = read(file("galaxy-collision"));
-    EXPECT_NEAR(scene.simulation.units.gravitational_constant(), 43007.1, 0.05);
-    EXPECT_EQ(scene.simulation.kinds.at(0).name, "halo");
-    EXPECT_EQ(scene.simulation.kinds.at(0).softening, 1.0);
-    EXPECT_EQ(scene.simulation.kinds.at(1).name, "disc");
-    EXPECT_EQ(scene.simulation.kinds.at(1).softening, 0.4);
-    EXPECT_EQ(scene.simulation.time.step, 0.001);
-}
-
-TEST_F(ShippedScene, OfTheGalaxyTakesAMillionStars)
-{
-    EXPECT_EQ(read(file("galaxy")).galaxy.particles, 10'000U);
-    EXPECT_EQ(read(file("galaxy"), {"galaxy.particles=1000000"}).galaxy.particles, 1'000'000U);
-}
-
-TEST_F(ShippedScene, OfTheFountainHasThreeStreamsOfTwoThousandDropletsFiveSecondsApart)
-{
-    const Scene scene = read(file("fountain"));
-    ASSERT_EQ(scene.simulation.emitters.size(), 3U);
-    double start = 0;
-    for (const EmitterSettings& emitter : scene.simulation.emitters) {
-        EXPECT_EQ(emitter.rate * emitter.lifetime, 2000);
-        EXPECT_EQ(emitter.start, start);
-        start += 5;
-    }
-    EXPECT_TRUE(scene.simulation.uniform_gravity && scene.simulation.linear_drag &&
-                scene.simulation.uniform_wind);
-    EXPECT_FALSE(scene.simulation.gravity);
-}
-
-TEST_F(ShippedScene, OfTheFountainTakesTenMillionDropletsAsItSaysItself)
-{
-    // The overrides are read from the file's own comment.
-    std::ifstream stream(file("fountain"));
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    const std::string mark = "--set emitter";
-    std::vector<std::string> overrides;
-    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
-        const auto begin = at + 6;
-        overrides.push_back(text.substr(begin, text.find_first_of(" \n", begin) - begin));
-    }
-    ASSERT_EQ(overrides.size(), 3U);
-    double droplets = 0;
-    for (const EmitterSettings& emitter : read(file("fountain"), overrides).simulation.emitters)
-        droplets += emitter.rate * emitter.lifetime;
-    EXPECT_NEAR(droplets, 10e6, 10); // rates are given in whole droplets a second, three times 2.5 s
 }
 
 TEST(SceneText, EveryRandomSceneComesBackTheSame)
