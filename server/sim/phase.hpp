@@ -12,6 +12,7 @@ enum class Phase : std::uint8_t {
     Commands,
     OpenKick,
     Propagate,
+    Expire,
     Emit,
     Update,
     Moments,
@@ -20,12 +21,12 @@ enum class Phase : std::uint8_t {
     Snapshot,
 };
 
-inline constexpr std::size_t phase_count = 9;
+inline constexpr std::size_t phase_count = 10;
 
 constexpr std::array<std::string_view, phase_count> names(Phase)
 {
-    return {"commands", "open_kick", "propagate",  "emit",    "update",
-            "moments",  "forces",    "close_kick", "snapshot"};
+    return {"commands", "open_kick", "propagate", "expire",     "emit",
+            "update",   "moments",   "forces",    "close_kick", "snapshot"};
 }
 
 /// Milliseconds of each phase in one frame; 0 for a phase that is not in the plan.

@@ -74,7 +74,8 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::Commands, true);
     runs(Phase::OpenKick, kicked);
     runs(Phase::Propagate, true);
-    runs(Phase::Emit, !settings.emitters.empty() || plan.finite_lives || !settings.sinks.empty());
+    runs(Phase::Expire, plan.finite_lives || !settings.sinks.empty());
+    runs(Phase::Emit, !settings.emitters.empty());
     runs(Phase::Update, kicked || plan.local_air || !plan.unclustered || !settings.regions.empty());
     runs(Phase::Moments, settings.gravity.has_value() || plan.clocked);
     runs(Phase::Forces, kicked);

@@ -26,7 +26,8 @@ const Snapshot& Simulation::step(const Request& request)
     s.run(Phase::Commands, [&] { s.open_frame(); });     // slabs, regions       -> pool, tree, tides, frame
     s.run(Phase::OpenKick, [&] { s.kick(); });           // accelerations, tides -> velocities, maps
     s.run(Phase::Propagate, [&] { s.propagate(); });     // velocities, maps     -> positions, maps
-    s.run(Phase::Emit, [&] { s.emit(); });               // emitters, ages, sinks -> clusters, members
+    s.run(Phase::Expire, [&] { s.expire(); });           // ages, sinks          -> clusters, members
+    s.run(Phase::Emit, [&] { s.emit(); });               // emitters, sinks      -> clusters, members
     s.run(Phase::Update, [&] { s.update(); });           // positions, shapes    -> tree, clusters, members
     s.run(Phase::Moments, [&] { s.measure_moments(); }); // clusters, tree       -> variances, force view
     s.run(Phase::Forces, [&] { s.evaluate_forces(); });  // force view           -> accelerations, tides

@@ -167,6 +167,8 @@ void Simulation::State::make_room()
     const std::uint64_t formed = moving + struck + kicked + drained;
     store.members.reserve(formed + formed / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
+    if (plan.finite_lives)
+        expiry.reserve(store.clusters);
     for (Subtree& subtree : tree.subtrees)
         reserve(subtree, subtree.pool_count() / 2 + (subtree.region == background_row ? 256 : 32));
     if (plan.clocked)
@@ -250,7 +252,7 @@ void Simulation::State::turn_wind()
         collisions->set_fields(fields);
 }
 
-void Simulation::State::emit()
+void Simulation::State::expire()
 {
     if (plan.finite_lives) {
         const std::uint64_t died = expiry.update(tree, context());
@@ -259,13 +261,6 @@ void Simulation::State::emit()
     }
     if (draining)
         drain();
-    const std::uint64_t room =
-        settings.limits.max_particles - std::min(settings.limits.max_particles, particle_count);
-    const Emission::Births births = emission.update(tree, context(), plan.has(Phase::CloseKick), room);
-    snapshot.counts.born = births.born;
-    snapshot.counts.births_refused = births.refused;
-    particle_count += snapshot.counts.born;
-    make_room(); // for the newborn
 }
 
 void Simulation::State::drain()
@@ -274,6 +269,17 @@ void Simulation::State::drain()
     snapshot.counts.drained = snapshot.drained.particles;
     snapshot.counts.died += snapshot.drained.particles;
     particle_count -= snapshot.drained.particles;
+}
+
+void Simulation::State::emit()
+{
+    const std::uint64_t room =
+        settings.limits.max_particles - std::min(settings.limits.max_particles, particle_count);
+    const Emission::Births births = emission.update(tree, context(), plan.has(Phase::CloseKick), room);
+    snapshot.counts.born = births.born;
+    snapshot.counts.births_refused = births.refused;
+    particle_count += snapshot.counts.born;
+    make_room(); // for the newborn
 }
 
 void Simulation::State::update()

@@ -36,8 +36,9 @@ struct Simulation::State {
     void propagate();
     bool places_are_finite() const;
     void turn_wind(); ///< Takes this frame's wind, where that is the same everywhere
-    void emit();
+    void expire();
     void drain();
+    void emit();
     void update();
     void measure_moments();
     void evaluate_forces();

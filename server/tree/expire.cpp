@@ -7,7 +7,6 @@ namespace slod {
 std::uint64_t Expiry::update(SlodTree& tree, const UpdateContext& context)
 {
     ClusterTable& clusters = context.store.clusters;
-    died_.reserve(clusters.slot_capacity());
     died_.resize(clusters.slot_count());
     for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
         for (std::size_t slot = first; slot < last; ++slot) {

@@ -10,6 +10,9 @@ namespace slod {
 /// Ends the lives of members whose time has come, and clusters that this leaves empty.
 class Expiry {
 public:
+    /// Provides memory for the clusters there is room for.
+    void reserve(const ClusterTable& clusters) { died_.reserve(clusters.slot_capacity()); }
+
     /// Returns how many particles died at the end of context.frame.
     std::uint64_t update(SlodTree& tree, const UpdateContext& context);
 

@@ -62,9 +62,9 @@ TEST(Paper, A03_EachFrameMovesThenUpdatesTheTreeThenHandsOutWhatIsShownEachOnce)
     Simulation simulation(settings, ball(100, 1, 0, 1), {.isa = {}, .tick = tick});
     readings = 0;
     const StepProfile profile = simulation.step({}).profile;
-    const std::vector<Phase> order{Phase::Commands, Phase::OpenKick,  Phase::Propagate,
-                                   Phase::Emit,     Phase::Update,    Phase::Moments,
-                                   Phase::Forces,   Phase::CloseKick, Phase::Snapshot};
+    const std::vector<Phase> order{Phase::Commands,  Phase::OpenKick, Phase::Propagate, Phase::Expire,
+                                   Phase::Emit,      Phase::Update,   Phase::Moments,   Phase::Forces,
+                                   Phase::CloseKick, Phase::Snapshot};
     EXPECT_EQ(readings, 2 * std::int64_t(order.size()));
     for (std::size_t i = 0; i < order.size(); ++i) {
         const double start = double(2 * i + 1), end = double(2 * i + 2);

@@ -8,11 +8,13 @@
 namespace slod::test {
 namespace {
 
-const Names with_births_or_deaths{"commands", "propagate", "emit", "update", "snapshot"};
+const Names with_births{"commands", "propagate", "emit", "update", "snapshot"};
+const Names with_deaths{"commands", "propagate", "expire", "update", "snapshot"};
+const Names with_both{"commands", "propagate", "expire", "emit", "update", "snapshot"};
 const Names attracted{"commands", "open_kick", "propagate",  "update",
                       "moments",  "forces",    "close_kick", "snapshot"};
-const Names all_phases{"commands", "open_kick", "propagate",  "emit",    "update",
-                       "moments",  "forces",    "close_kick", "snapshot"};
+const Names all_phases{"commands", "open_kick", "propagate", "expire",     "emit",
+                       "update",   "moments",   "forces",    "close_kick", "snapshot"};
 
 void attract(SmallScene& scene)
 {
@@ -179,21 +181,21 @@ std::vector<PlannedScene> scenes_of_particles()
     return {
         {.name = "emitter",
          .choose = emit,
-         .phases = with_births_or_deaths,
+         .phases = with_both,
          .effects = {"emitter", "lifetime"},
          .member_columns = {"expiry frame"},
          .cluster_columns = {"next expiry"}},
         {.name = "emitter_of_immortals",
          .choose = emit_immortals,
-         .phases = with_births_or_deaths,
+         .phases = with_births,
          .effects = {"emitter"}},
         {.name = "mortals_at_the_start",
          .choose = [](SmallScene& scene) { scene.initial.front().expiry_frame = 3; },
-         .phases = with_births_or_deaths,
+         .phases = with_deaths,
          .effects = {"lifetime"},
          .member_columns = {"expiry frame"},
          .cluster_columns = {"next expiry"}},
-        {.name = "sink", .choose = sink, .phases = with_births_or_deaths, .effects = {"sink"}},
+        {.name = "sink", .choose = sink, .phases = with_deaths, .effects = {"sink"}},
         {.name = "several_kinds", .choose = add_kind, .member_columns = {"kind"}},
         {.name = "several_masses",
          .choose = [](SmallScene& scene) { scene.initial.front().mass = 2; },
