@@ -4,8 +4,12 @@
 #include <array>
 #include <limits>
 
+#include "core/parallel.hpp"
+
 namespace slod {
 namespace {
+
+constexpr std::size_t many = 4096; ///< keys whose halves are worth a task each
 
 /// Keys of the lower of two halves of `parts` parts.
 std::uint32_t lower_count(std::uint32_t count, std::uint32_t parts)
@@ -43,8 +47,14 @@ void divide(std::span<DivisionKey> keys, std::uint32_t parts)
                      [axis](const DivisionKey& a, const DivisionKey& b) {
                          return a.x[axis] != b.x[axis] ? a.x[axis] < b.x[axis] : a.index < b.index;
                      });
-    divide(keys.first(lower), parts / 2);
-    divide(keys.subspan(lower), parts - parts / 2);
+    const auto divide_lower = [&] { divide(keys.first(lower), parts / 2); };
+    const auto divide_upper = [&] { divide(keys.subspan(lower), parts - parts / 2); };
+    if (keys.size() >= many) {
+        run_both(divide_lower, divide_upper);
+        return;
+    }
+    divide_lower();
+    divide_upper();
 }
 
 std::uint32_t part_begin(std::uint32_t count, std::uint32_t parts, std::uint32_t part)

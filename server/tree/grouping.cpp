@@ -48,6 +48,22 @@ double mean_pull(const Grouping& grouping, std::span<const DivisionKey> keys)
     return known > 0 ? sum / known : 0;
 }
 
+/// Forms one of the clusters that the group has been divided into.
+void form_part(Grouping& grouping, const Group& group, std::uint32_t part, const UpdateContext& context)
+{
+    const std::uint32_t begin = part_begin(group.count, group.clusters, part);
+    const std::uint32_t end =
+        part + 1 == group.clusters ? group.count : part_begin(group.count, group.clusters, part + 1);
+    const auto keys = std::span(grouping.keys).subspan(group.first + begin, end - begin);
+    const auto ordered = std::span(grouping.ordered).subspan(group.first + begin, end - begin);
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        ordered[i] = grouping.particles[keys[i].index];
+    const ClusterSlot slot = grouping.slots[group.first_slot + part];
+    form_cluster(context.store, slot, ordered, context.frame);
+    if (context.store.clusters.columns.acceleration)
+        context.store.clusters.pull[slot.index] = mean_pull(grouping, keys);
+}
+
 void form_group(Grouping& grouping, const Group& group, const UpdateContext& context)
 {
     if (group.clusters == 0)
@@ -60,18 +76,15 @@ void form_group(Grouping& grouping, const Group& group, const UpdateContext& con
         keys[i] = {{float(x.x()), float(x.y()), float(x.z())}, index};
     }
     divide(keys, group.clusters);
-    const std::span<Particle> ordered(grouping.ordered.data() + group.first, group.count);
-    for (std::uint32_t i = 0; i < group.count; ++i)
-        ordered[i] = grouping.particles[keys[i].index];
-    for (std::uint32_t part = 0; part < group.clusters; ++part) {
-        const std::uint32_t begin = part_begin(group.count, group.clusters, part);
-        const std::uint32_t end =
-            part + 1 == group.clusters ? group.count : part_begin(group.count, group.clusters, part + 1);
-        const ClusterSlot slot = grouping.slots[group.first_slot + part];
-        form_cluster(context.store, slot, ordered.subspan(begin, end - begin), context.frame);
-        if (context.store.clusters.columns.acceleration)
-            context.store.clusters.pull[slot.index] = mean_pull(grouping, keys.subspan(begin, end - begin));
-    }
+    const auto form_parts = [&](std::size_t first, std::size_t last) {
+        for (std::size_t part = first; part < last; ++part)
+            form_part(grouping, group, std::uint32_t(part), context);
+    };
+    constexpr std::uint32_t few = 16; // clusters of one task
+    if (group.clusters > few)
+        for_each_block(group.clusters, few, form_parts);
+    else
+        form_parts(0, group.clusters);
 }
 
 } // namespace
