@@ -161,13 +161,18 @@ double norm_bound(const Matrix3d& matrix)
     return std::sqrt(sizes.rowwise().sum().maxCoeff() * sizes.colwise().sum().maxCoeff());
 }
 
-/// Largest length of `of_offset` o + `of_velocity` w among the members, from the largest at forming.
-double mapped_bound(const ClusterTable& clusters, std::size_t slot, const Matrix3d& of_offset,
-                    const Matrix3d& of_velocity)
+/// Largest lengths of o - o_c and w - w_c among the members, from the largest of o and w at forming.
+MemberBounds formed_bounds(const ClusterTable& clusters, std::size_t slot)
 {
     const MapBlocks::Offset mean = means(clusters, slot);
-    return norm_bound(of_offset) * (double(clusters.offset_max[slot]) + mean.position.norm()) +
-           norm_bound(of_velocity) * (double(clusters.speed_max[slot]) + mean.velocity.norm());
+    return {double(clusters.offset_max[slot]) + mean.position.norm(),
+            double(clusters.speed_max[slot]) + mean.velocity.norm()};
+}
+
+/// Largest length of `of_offset` o + `of_velocity` w among the members.
+double mapped_bound(const MemberBounds& formed, const Matrix3d& of_offset, const Matrix3d& of_velocity)
+{
+    return norm_bound(of_offset) * formed.radius + norm_bound(of_velocity) * formed.velocity;
 }
 
 } // namespace
@@ -336,14 +341,28 @@ double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::s
                        std::uint64_t frame)
 {
     const MapBlocks map = clusters.blocks(slot, rule, frame);
-    return mapped_bound(clusters, slot, map.a, map.b);
+    return mapped_bound(formed_bounds(clusters, slot), map.a, map.b);
 }
 
 double velocity_bound(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
                       std::uint64_t frame)
 {
     const MapBlocks map = clusters.blocks(slot, rule, frame);
-    return mapped_bound(clusters, slot, map.c, map.d);
+    return mapped_bound(formed_bounds(clusters, slot), map.c, map.d);
+}
+
+MemberBounds member_bounds(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
+{
+    const MemberBounds formed = formed_bounds(store.clusters, slot);
+    if (store.rule.kind == MapKind::Full) {
+        const MapBlocks map = store.clusters.blocks(slot, store.rule, frame);
+        return {mapped_bound(formed, map.a, map.b), mapped_bound(formed, map.c, map.d)};
+    }
+    if (store.rule.kind == MapKind::Identity)
+        return formed;
+    const double drift = store.drift(frame - store.clusters.formed_frame[slot]);
+    const double decay = 1 - store.rule.drag * drift;
+    return {formed.radius + drift * formed.velocity, decay * formed.velocity};
 }
 
 } // namespace slod

@@ -76,4 +76,10 @@ double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::s
 double velocity_bound(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
                       std::uint64_t frame);
 
+/// Both at once, up to rounding, and without an exponential where maps are closed forms of the age.
+struct MemberBounds {
+    double radius, velocity;
+};
+MemberBounds member_bounds(const ClusterStore& store, std::size_t slot, std::uint64_t frame);
+
 } // namespace slod

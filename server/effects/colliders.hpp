@@ -22,6 +22,7 @@ public:
     void set_fields(const UniformFields& fields);
 
     const UniformFields& fields() const { return fields_; }
+    double frame_drift() const { return frame_.drift; } ///< how far unit velocity carries in a frame
 
     /// Flights end at this time from here on. Colliders are where the scene has them at 0; before the first
     /// call of this, the first frame's flights are meant.
@@ -101,6 +102,7 @@ private:
     static double touching_distance(const Collider& collider, const Vector3d& position);
     static bool ends(const Contacts& contacts, bool met, double left, Vector3d& position, Vector3d& velocity,
                      Encounter& encounter);
+    bool passes_all(const Path& path, const Elapsed& whole) const;
     Path seen_from(const Collider& collider, const Path& path, double left) const;
     Contact contact_with(const Piece& piece, const Solid& solid, const Vector3d& place) const;
     template <class Visit>

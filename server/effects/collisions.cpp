@@ -41,14 +41,12 @@ Air::Felt Collisions::felt_by(const UpdateContext& context, std::size_t slot) co
 bool Collisions::may_be_struck(const UpdateContext& context, std::size_t slot) const
 {
     const ClusterTable& clusters = context.store.clusters;
-    const MapRule& rule = context.store.rule;
-    const std::uint64_t start = context.frame - 1;
-    double relative = velocity_bound(clusters, rule, slot, start);
+    const auto [radius, velocity] = member_bounds(context.store, slot, context.frame - 1);
+    double relative = velocity;
     if (clusters.columns.withheld)
         relative += clusters.withheld[slot].norm();
-    const double radius = bounding_radius(clusters, rule, slot, start);
     const Air::Felt felt = felt_by(context, slot);
-    double reach = radius + (air_ == nullptr ? drag_drift(rule.drag, context.step) * relative
+    double reach = radius + (air_ == nullptr ? colliders_.frame_drift() * relative
                                              : air_->spread(felt, radius, relative));
     if (clusters.columns.acceleration)
         reach += 0.125 * context.step * context.step * clusters.acceleration[slot].norm();

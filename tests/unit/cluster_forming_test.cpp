@@ -246,6 +246,17 @@ TEST_P(FormingByMap, NoMemberIsBeyondTheBoundingRadius)
     }
 }
 
+// A table of drifts stands for exponentials, each right to 4e-16.
+TEST_P(FormingByMap, BothBoundsAtOnceAreThoseByThemselves)
+{
+    const ClusterSlot slot = aged_cluster(test::ball(30, 2, 1, 3, {5, -3, 8}), 0);
+    const MemberBounds bounds = member_bounds(store, slot.index, age);
+    const double radius = bounding_radius(store.clusters, rule, slot.index, age);
+    const double velocity = velocity_bound(store.clusters, rule, slot.index, age);
+    EXPECT_NEAR(bounds.radius, radius, 1e-14 * radius);
+    EXPECT_NEAR(bounds.velocity, velocity, 1e-14 * velocity);
+}
+
 TEST(TakesMembers, NeedsAFreeRow)
 {
     ClusterStore store = test::empty_store(identity);
