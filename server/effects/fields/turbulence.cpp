@@ -83,6 +83,18 @@ Turbulence::Turbulence(const Settings& settings, const FieldSource& source) : se
             component *= scale;
 }
 
+std::vector<Turbulence::Wave> Turbulence::waves() const
+{
+    std::vector<Wave> all;
+    for (const Waves& waves : waves_)
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            all.push_back({{waves.number[0][lane], waves.number[1][lane], waves.number[2][lane]},
+                           {waves.velocity[0][lane], waves.velocity[1][lane], waves.velocity[2][lane]},
+                           waves.rate[lane],
+                           waves.phase[lane]});
+    return all;
+}
+
 void Turbulence::add(const Vector3d& x, double time, FieldValue& sum) const
 {
     std::array<Lanes, 3> value{};

@@ -52,6 +52,13 @@ public:
     Box bounds() const { return unbounded(); }
     void add(const Vector3d& x, double time, FieldValue& sum) const;
 
+    /// velocity cos 2 pi (number . x + rate t + phase)
+    struct Wave {
+        Vector3d number, velocity; ///< 1 / length; length / time
+        double rate, phase;        ///< 1 / time; turns
+    };
+    std::vector<Wave> waves() const; ///< that the field is the sum of
+
 private:
     static constexpr std::size_t lanes = 2; ///< of the baseline processor's registers
     static constexpr std::size_t waves_of_octave = 12;
