@@ -67,6 +67,14 @@ Air::Felt Air::felt(const Vector3d& position, const Vector3d& velocity, double s
     return felt;
 }
 
+Air::Felt Air::felt_by_cluster(const ClusterTable& clusters, std::size_t slot) const
+{
+    const Vector3d& velocity = clusters.velocity[slot];
+    Felt felt = felt_in(winds_at_[slot], velocity, step_);
+    felt.middle = clusters.position[slot] + (0.5 * step_) * velocity;
+    return felt;
+}
+
 UniformFields Air::felt_by_member(const Felt& cluster, const Vector3d& position,
                                   const Vector3d& velocity) const
 {
@@ -130,11 +138,17 @@ void Air::ask_winds(const ClusterTable& clusters, std::size_t first, std::size_t
         time, winds_at_.data());
 }
 
-void Air::propagate(ClusterTable& clusters, double start)
+void Air::ask(const ClusterTable& clusters, double start)
 {
     winds_at_.resize(clusters.slot_count());
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         ask_winds(clusters, first, last, 0.5 * step_, start + 0.5 * step_);
+    });
+}
+
+void Air::propagate(ClusterTable& clusters)
+{
+    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         for (std::size_t slot = first; slot < last; ++slot) {
             if (!clusters.alive(slot))
                 continue;

@@ -40,6 +40,12 @@ public:
     /// For a flight of `duration` from `start` on.
     Felt felt(const Vector3d& position, const Vector3d& velocity, double start, double duration) const;
 
+    /// Asks for the winds that clusters feel through a frame from `start` on, each at the middle of its way.
+    void ask(const ClusterTable& clusters, double start);
+
+    /// What a cluster that was asked for feels through that frame: as felt(), from the frame's start on.
+    Felt felt_by_cluster(const ClusterTable& clusters, std::size_t slot) const;
+
     /// What a member of a cluster feels through a frame: the wind linearised about its cluster.
     UniformFields felt_by_member(const Felt& cluster, const Vector3d& position,
                                  const Vector3d& velocity) const;
@@ -51,8 +57,8 @@ public:
     /// Provides memory for so many clusters.
     void reserve(std::size_t slots) { winds_at_.reserve(slots); }
 
-    /// Moves every cluster through a frame from `start` on, and its map by the tangent of that.
-    void propagate(ClusterTable& clusters, double start);
+    /// Moves every cluster through the frame that was asked for, and its map by the tangent of that.
+    void propagate(ClusterTable& clusters);
 
     /// Measures how fast winds deform clusters where they are: columns.strain. It moves nothing, and is not
     /// counted.
@@ -75,7 +81,7 @@ private:
     std::unique_ptr<FieldSet<AirFields>> winds_;
     double step_;
     Damping frame_;                      ///< of the linear drag
-    AlignedVector<FieldValue> winds_at_; ///< by slot
+    AlignedVector<FieldValue> winds_at_; ///< by slot, as last asked for
 };
 
 } // namespace slod

@@ -31,9 +31,7 @@ Air::Felt Collisions::felt_by(const UpdateContext& context, std::size_t slot) co
 {
     if (air_ == nullptr)
         return {.fields = colliders_.fields()};
-    const ClusterTable& clusters = context.store.clusters;
-    return air_->felt(clusters.position[slot], clusters.velocity[slot],
-                      double(context.frame - 1) * context.step, context.step);
+    return air_->felt_by_cluster(context.store.clusters, slot);
 }
 
 /// By a ball about the centre that no member leaves during the frame, unless it bounces: the map's bound, and

@@ -31,7 +31,8 @@ public:
         bool full_map = false;
     };
 
-    /// `air`, the caller's, where it differs from place to place; null otherwise.
+    /// `air`, the caller's, where it differs from place to place, and then asked for each frame before
+    /// members fly; null otherwise.
     Collisions(const std::vector<ColliderSettings>& settings, const UniformFields& fields, double step,
                const Rules& rules, const Air* air = nullptr)
         : colliders_(settings, fields, step), rules_(rules), air_(air)

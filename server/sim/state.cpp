@@ -227,10 +227,12 @@ void Simulation::State::propagate()
         draining->remember(context());
     if (air && !plan.local_air)
         turn_wind();
+    if (plan.local_air)
+        air->ask(store.clusters, double(frame - 1) * settings.time.step);
     if (collisions)
         collisions->fly_members(context());
     if (plan.local_air)
-        air->propagate(store.clusters, double(frame - 1) * settings.time.step);
+        air->propagate(store.clusters);
     else
         propagate_clusters(store.clusters, propagator);
     if (air)
