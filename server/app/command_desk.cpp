@@ -182,6 +182,8 @@ Answer CommandDesk::set(const Request& request)
 {
     if (request.settings.empty())
         return refusal(slod_v1_RESULT_INVALID, "settings", "Nothing is set; name a table.key and a value.");
+    if (const Problems found = unchangeable(request.settings); !found.empty())
+        return refusal(found);
     if (of_loop(request.settings.front()))
         return set_loop(request);
     Request asked = request;

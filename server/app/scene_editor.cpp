@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/nearest.hpp"
+#include "scene/value_text.hpp"
+
 namespace slod {
 
 namespace {
@@ -19,6 +22,25 @@ bool of_background(const Assignment& assignment)
 bool are_of_background(const std::vector<Assignment>& settings)
 {
     return std::all_of(settings.begin(), settings.end(), of_background);
+}
+
+Problems unchangeable(const std::vector<Assignment>& settings)
+{
+    // Of [server] its frame_rate alone, which its own reader says.
+    const std::vector<std::string> tables{"background", "control",         "gravity",
+                                          "server",     "uniform_gravity", "uniform_wind"};
+    Problems found;
+    for (const Assignment& assignment : settings) {
+        const std::string_view table = std::string_view(assignment.key).substr(0, assignment.key.find('.'));
+        if (std::find(tables.begin(), tables.end(), table) != tables.end())
+            continue;
+        const std::string* const meant = nearest(table, tables);
+        found.push_back(assignment.key + " cannot change while the scene runs; " +
+                        (meant != nullptr
+                             ? "did you mean " + *meant + "?"
+                             : "start the server with it. What can is in " + joined(tables) + "."));
+    }
+    return found;
 }
 
 SceneEditor::SceneEditor(Simulation& simulation) : simulation_(simulation)

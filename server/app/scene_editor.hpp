@@ -17,6 +17,10 @@ namespace slod {
 /// Whether all of these are settings of [background], which is a region.
 bool are_of_background(const std::vector<Assignment>& settings);
 
+/// What is wrong with settings that no scene can change while it runs, by their tables; empty when all may
+/// be.
+Problems unchangeable(const std::vector<Assignment>& settings);
+
 /// Changes a running simulation, and keeps account of it: who owns which region, what the input log must have
 /// to repeat it, what clients are to be told. Belongs to the simulation's thread. `frame` is always the first
 /// frame that has the change.

@@ -25,11 +25,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
     return last[b.size()];
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string>& known)
+const std::string* nearest(std::string_view name, const std::vector<std::string>& known)
 {
     // Longer names are mistyped for anything else.
     constexpr std::size_t longest_name = 64;
-    const std::string* nearest = nullptr;
+    const std::string* best = nullptr;
     std::size_t distance = std::max<std::size_t>(1, name.size() / 3) + 1;
     for (const std::string& candidate : known) {
         if (name.size() > longest_name)
@@ -37,10 +37,16 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
         const std::size_t candidate_distance = edit_distance(name, candidate);
         if (candidate_distance < distance) {
             distance = candidate_distance;
-            nearest = &candidate;
+            best = &candidate;
         }
     }
-    return nearest != nullptr ? "did you mean " + *nearest + "?" : "known are " + joined(known) + ".";
+    return best;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& known)
+{
+    const std::string* const meant = nearest(name, known);
+    return meant != nullptr ? "did you mean " + *meant + "?" : "known are " + joined(known) + ".";
 }
 
 } // namespace slod

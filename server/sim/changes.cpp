@@ -24,6 +24,21 @@ void check_plan(const Plan& plan, const RegionSettings& partition, Problems& fou
             "add one to the scene file.");
 }
 
+/// Tables that the scene has not, and cannot get: the plan has neither their phases nor their columns.
+Problems added_tables(const SimulationSettings& wanted, const SimulationSettings& present)
+{
+    Problems found;
+    const auto check = [&](std::string_view key, bool is_wanted, bool is_there) {
+        if (is_wanted && !is_there)
+            found.push_back(std::string(key) +
+                            " is not in the scene, and cannot come while it runs; start the server with it.");
+    };
+    check("gravity", wanted.gravity.has_value(), present.gravity.has_value());
+    check("uniform_gravity", wanted.uniform_gravity.has_value(), present.uniform_gravity.has_value());
+    check("uniform_wind", wanted.uniform_wind.has_value(), present.uniform_wind.has_value());
+    return found;
+}
+
 } // namespace
 
 std::optional<RegionRow> Simulation::State::find_region(std::string_view name) const
@@ -124,6 +139,8 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
 {
     State& s = *state_;
     const SimulationSettings& present = s.settings;
+    if (Problems found = added_tables(wanted, present); !found.empty())
+        return found;
     Problems found = slod::problems(wanted);
     const auto fixed = [&](std::string_view key, bool same) {
         if (!same)

@@ -110,7 +110,7 @@ TEST_F(Desk, ABadRequestIsRefusedAndChangesNothing)
     expect(setting("set_roi", "core", {"name", "other"}), slod_v1_RESULT_INVALID, "name");
     expect(setting("set_roi", "core", {"pool_factor", "0"}), slod_v1_RESULT_INVALID, "pool_factor");
     expect(setting("set_roi", "background", {"shape", "box"}), slod_v1_RESULT_INVALID, "shape");
-    expect(setting("set", "", {"time.step", "2"}), slod_v1_RESULT_INVALID, "time");
+    expect(setting("set", "", {"time.step", "2"}), slod_v1_RESULT_INVALID, "time.step");
     expect(setting("set", "", {"gravity.strength", "-1"}), slod_v1_RESULT_INVALID, "gravity.strength");
     expect(setting("set", "", {"background.pool_factor", "0"}), slod_v1_RESULT_INVALID,
            "background.pool_factor");
@@ -130,6 +130,28 @@ TEST_F(Desk, SettingsOfTheSceneAndOfTheBackgroundAreSet)
     mixed.settings = {{"gravity.strength", "0.25"}, {"background.max_cluster_size", "8"}};
     EXPECT_EQ(ask(mixed).result, slod_v1_RESULT_INVALID);
     EXPECT_EQ(simulation.settings().gravity->strength, 0.5);
+}
+
+// The scene has gravity, and neither of the uniform effects.
+TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
+{
+    const auto expect = [&](const std::string& key, const std::string& text) {
+        Request asked = request("set");
+        asked.settings = {{key, "1"}};
+        const Answer answer = ask(asked);
+        EXPECT_EQ(answer.result, slod_v1_RESULT_INVALID) << key;
+        EXPECT_NE(answer.text.find(text), std::string::npos) << answer.text;
+        EXPECT_LE(answer.text.size(), 256U) << "the wire has no room for more: " << answer.text;
+    };
+    expect("gravty.strength", "gravty.strength cannot change while the scene runs; did you mean gravity?");
+    for (const std::string table :
+         {"galaxy.particles", "wire.commands", "linear_drag.rate", "emitter.0.rate"})
+        expect(table, table + " cannot change while the scene runs; start the server with it. What can is in "
+                              "background, control, gravity, server, uniform_gravity, uniform_wind.");
+    expect("gravity", "write table.key");
+    Request wind = request("set");
+    wind.settings = {{"uniform_wind.velocity", "[1, 0, 0]"}};
+    EXPECT_TRUE(ask(wind).text.starts_with("uniform_wind is not in the scene")) << ask(wind).text;
 }
 
 TEST_F(Desk, PauseStepAndResumeDecideWhichFramesRun)
