@@ -53,6 +53,18 @@ std::string_view fitting(std::string_view text, std::size_t capacity)
     return text.substr(0, length);
 }
 
+std::string fitting_words(std::string_view sentence, std::size_t capacity)
+{
+    constexpr std::string_view dots = " ...";
+    if (sentence.size() <= capacity)
+        return std::string(sentence);
+    // A word ends before the space that follows it, which may be the first that does not fit.
+    const std::size_t end = sentence.rfind(' ', capacity - dots.size());
+    const std::string_view words =
+        end == std::string_view::npos ? fitting(sentence, capacity - dots.size()) : sentence.substr(0, end);
+    return std::string(words).append(dots);
+}
+
 std::size_t wire_bytes(const Clusters& message)
 {
     return sizeof(message) + bytes(message.position) + bytes(message.velocity) + bytes(message.mass) +

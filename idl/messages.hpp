@@ -57,6 +57,9 @@ inline Uuid uuid_of(const slod_v1_Uuid& field)
 /// `text`, or as much of it as fits into `capacity` bytes without cutting a UTF-8 character.
 std::string_view fitting(std::string_view text, std::size_t capacity);
 
+/// `sentence`, or as many of its words as fit into `capacity` bytes, with dots for the others.
+std::string fitting_words(std::string_view sentence, std::size_t capacity);
+
 /// Stores `text` in a bounded string, cut where it is too long.
 template <std::size_t Size>
 void set(char (&field)[Size], std::string_view text)
@@ -64,6 +67,13 @@ void set(char (&field)[Size], std::string_view text)
     const std::string_view stored = fitting(text, Size - 1);
     std::copy(stored.begin(), stored.end(), field); // an empty text may have no place in memory
     field[stored.size()] = '\0';
+}
+
+/// Likewise words for people, which end with a whole one.
+template <std::size_t Size>
+void set_sentence(char (&field)[Size], std::string_view sentence)
+{
+    set(field, fitting_words(sentence, Size - 1));
 }
 
 /// Points a message's sequence at `elements`, which must outlive the write: nothing is copied, and DDS frees

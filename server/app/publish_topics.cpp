@@ -110,7 +110,7 @@ void PublishedTopics::publish(const Answer& answer)
     wire::set(reply.session, session_);
     reply.result = answer.result;
     wire::set(reply.field, answer.field);
-    wire::set(reply.text, answer.text);
+    wire::set_sentence(reply.text, answer.text);
     reply.applied_frame = answer.applied_frame;
     reply.revision = answer.revision;
     outlet_.send(reply_writer_, reply);

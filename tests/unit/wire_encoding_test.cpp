@@ -230,6 +230,19 @@ TEST(WireEncoding, ALongTextIsCutBetweenCharacters)
     EXPECT_STREQ(field, "");
 }
 
+TEST(WireEncoding, ALongSentenceIsCutBetweenWords)
+{
+    char field[13];
+    wire::set_sentence(field, "known are units"); // 15 letters
+    EXPECT_STREQ(field, "known ...");
+    wire::set_sentence(field, "use mass or time"); // what comes before the dots fills it
+    EXPECT_STREQ(field, "use mass ...");
+    wire::set_sentence(field, "known units.");
+    EXPECT_STREQ(field, "known units.");
+    wire::set_sentence(field, "xxxxxxxxxxxxxxx");
+    EXPECT_STREQ(field, "xxxxxxxx ...");
+}
+
 TEST(WireEncoding, SessionsAreNotRepeated)
 {
     EXPECT_NE(wire::new_uuid(), wire::new_uuid());
