@@ -34,8 +34,8 @@ struct SceneText {
 std::variant<SceneText, Problems> read_scene_text(const std::filesystem::path& file);
 
 /// Reads a scene and then the overrides, "table.key=value" with a TOML value, one each. Every problem is
-/// reported, each with file, line, key, value and remedy. Files of colliders are read, nothing else is read
-/// or changed.
+/// reported, each with file, line, key, value and remedy, and with the overrides that it is owed to. Files of
+/// colliders are read, nothing else is read or changed.
 std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides);
 
 /// Likewise, from the file.

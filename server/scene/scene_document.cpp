@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <string_view>
 
+#include "scene/nearest.hpp"
+#include "scene/sections.hpp"
 #include "scene/value_text.hpp"
 
 namespace slod {
 
 namespace {
-
-/// Starts the source of whatever an override wrote.
-constexpr std::string_view override_mark = "--set ";
 
 std::optional<toml::table> parse_text(const SceneText& scene, Problems& found)
 {
@@ -65,6 +63,28 @@ std::optional<Override> split(const std::string& text)
     return result;
 }
 
+std::vector<std::string> table_names()
+{
+    std::vector<std::string> names;
+    Scene scene;
+    for_each_section(scene, [&](const Section& section, const auto&) {
+        if (!section.name.empty())
+            names.emplace_back(section.name);
+    });
+    return names;
+}
+
+/// Why there is no element for the override in an array of `count` tables.
+std::string missing_element(const Override& change, std::size_t count)
+{
+    const std::string table = "[[" + change.table + "]]";
+    const std::vector<std::string> known = table_names();
+    if (count == 0 && std::find(known.begin(), known.end(), change.table) == known.end())
+        return table + " is no table of a scene; " + suggestion(change.table, known);
+    return "there is no " + table + " number " + change.index + "; the scene has " + std::to_string(count) +
+           (count > 0 ? ", counted from 0." : ".");
+}
+
 /// The table that an override names; none, with a problem, when it cannot be reached.
 toml::table* table_of(toml::table& root, const Override& change, Problems& found)
 {
@@ -85,8 +105,7 @@ toml::table* table_of(toml::table& root, const Override& change, Problems& found
     const std::size_t index = is_number && change.index.size() < 10 ? std::stoul(change.index) : count;
     if (index < count)
         return node->as_array()->get(index)->as_table();
-    found.push_back(change.origin + ": there is no [[" + change.table + "]] number " + change.index +
-                    "; the scene has " + std::to_string(count) + (count > 0 ? ", counted from 0." : "."));
+    found.push_back(change.origin + ": " + missing_element(change, count));
     return nullptr;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/settings.hpp"
@@ -13,6 +14,9 @@ namespace slod {
 
 /// Largest scene file that is read, bytes.
 inline constexpr std::size_t max_scene_file_bytes = 16u << 20;
+
+/// Starts the where() of whatever an override wrote.
+inline constexpr std::string_view override_mark = "--set ";
 
 /// Where a node was written: "file:line" or "--set table.key=value".
 std::string where(const toml::node& node);

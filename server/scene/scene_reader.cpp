@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -149,9 +150,7 @@ private:
     std::set<std::string> faulty_;
 };
 
-} // namespace
-
-std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides)
+std::variant<Scene, Problems> read_scene(const SceneText& text, const std::vector<std::string>& overrides)
 {
     Problems found;
     const auto document = read_document(text, overrides, found);
@@ -166,6 +165,40 @@ std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vecto
     if (!reader.found().empty())
         return one_line_each(std::move(reader.found()));
     return scene;
+}
+
+/// What is wrong at a line of the file may be so for an override elsewhere, to which it is owed if it is gone
+/// without that. Names those overrides in front.
+void name_causes(Problems& found, const SceneText& text, const std::vector<std::string>& overrides)
+{
+    const auto names_one = [](const std::string& problem) { return problem.starts_with(override_mark); };
+    if (std::all_of(found.begin(), found.end(), names_one))
+        return;
+    Problems causes(found.size());
+    for (std::size_t i = 0; i < overrides.size(); ++i) {
+        std::vector<std::string> others = overrides;
+        others.erase(others.begin() + std::ptrdiff_t(i));
+        const auto without = read_scene(text, others);
+        const auto* const left = std::get_if<Problems>(&without);
+        for (std::size_t at = 0; at < found.size(); ++at)
+            if (left == nullptr || std::find(left->begin(), left->end(), found[at]) == left->end())
+                causes[at] += std::string(override_mark) + overrides[i] + ", ";
+    }
+    for (std::size_t at = 0; at < found.size(); ++at)
+        if (!causes[at].empty() && !names_one(found[at]))
+            found[at].insert(0, causes[at] + "beside ");
+}
+
+} // namespace
+
+std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides)
+{
+    auto read = read_scene(text, overrides);
+    if (auto* const found = std::get_if<Problems>(&read)) {
+        name_causes(*found, text, overrides);
+        *found = one_line_each(std::move(*found));
+    }
+    return read;
 }
 
 std::variant<Scene, Problems> load_scene(const std::filesystem::path& file,

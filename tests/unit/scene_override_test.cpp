@@ -120,11 +120,31 @@ TEST(SceneOverride, ItsProblemsNameTheOverrideInsteadOfALine)
         only_says(faulty("emitter.0.kind=water"), {"--set emitter.0.kind=water: emitter.0.kind", "no kind"}));
 }
 
+// A ring needs a radius, and a schedule has no rate beside it: what is wrong then is a key of the file, or
+// none.
+TEST(SceneOverride, WhatItMakesWrongElsewhereIsOwedToIt)
+{
+    const std::string scene = two_of_each + "[[emitter]]\nname = \"c\"\nkind = \"star\"\nrate = 5\n";
+    EXPECT_TRUE(
+        only_says(problems_of(scene, {"seed=2", "emitter.1.shape=ring"}),
+                  {"--set emitter.1.shape=ring, beside ", "s.toml:10: emitter.1.radius = 0 is that"}));
+    EXPECT_TRUE(
+        only_says(problems_of(scene, {"emitter.2.schedule=[[0, 1]]", "emitter.0.rate=2"}),
+                  {"--set emitter.2.schedule=[[0, 1]], beside ", "s.toml:21: emitter.2.rate = 5 is"}));
+    const Problems both = problems_of(scene + "speed = -1\n", {"emitter.1.shape=ring"});
+    EXPECT_EQ(both.size(), 2U);
+    EXPECT_TRUE(one_says(both, {"emitter.2.speed = -1 is out of range"}));
+    EXPECT_FALSE(one_says(both, {"--set", "emitter.2.speed"})) << "the file alone is to blame";
+}
+
 TEST(SceneOverride, AnElementThatIsNotThereIsRefused)
 {
     const auto faulty = [](const std::string& text) { return problems_of(two_of_each, {text}); };
     EXPECT_TRUE(only_says(faulty("emitter.2.rate=1"),
                           {"--set emitter.2.rate=1: there is no [[emitter]] number 2", "2,"}));
+    EXPECT_TRUE(
+        only_says(faulty("emiter.0.rate=1"),
+                  {"--set emiter.0.rate=1: [[emiter]] is no table of a scene; did you mean emitter?"}));
     EXPECT_TRUE(only_says(faulty("emitter.x.rate=1"), {"there is no [[emitter]] number x"}));
     EXPECT_TRUE(
         only_says(faulty("emitter.99999999999999999999.rate=1"), {"there is no [[emitter]] number 9999"}));
