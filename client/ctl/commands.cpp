@@ -16,7 +16,7 @@ void declare_nothing(CLI::App&, CommandLine&) {}
 void declare_watch(CLI::App& app, CommandLine& line)
 {
     app.add_option("--count", line.count, "End after so many updates; without it, on Ctrl-C")
-        ->check(client::at_least_one())
+        ->check(at_least_one())
         ->option_text("N");
     app.add_flag("--clusters", line.clusters,
                  "Receive the cluster states too; show their rate, latency, loss");
@@ -41,7 +41,7 @@ void declare_traffic(CLI::App& app, CommandLine& line)
 {
     declare_topic(app, line);
     app.add_option("--count", line.count, "End after so many seconds; without it, on Ctrl-C")
-        ->check(client::at_least_one())
+        ->check(at_least_one())
         ->option_text("N");
 }
 
@@ -51,7 +51,7 @@ void declare_echo(CLI::App& app, CommandLine& line)
     CLI::Option* const count =
         app.add_option("--count", line.count,
                        "End after so many samples, which must come within --timeout; without it, on Ctrl-C")
-            ->check(client::at_least_one())
+            ->check(at_least_one())
             ->option_text("N");
     app.add_flag_callback(
            "--once", [&line] { line.count = 1; }, "End after one sample")

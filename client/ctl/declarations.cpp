@@ -94,7 +94,7 @@ CLI::App* change_action(CLI::App& app, CommandLine& line, const std::string& nam
     CLI::App* const sub = region_action(app, line, name, help, kind);
     sub->add_option("--if-revision", line.request.if_revision,
                     "Refuse unless the region is at this revision: nobody else changed it")
-        ->check(client::at_least_one())
+        ->check(at_least_one())
         ->option_text("N");
     return sub;
 }
@@ -121,7 +121,7 @@ void declare_add(CLI::App& app, CommandLine& line)
         ->option_text("KEY=VALUE");
     add.add_option("--lease", request.lease_s,
                    "Remove it after so many seconds: nobody can renew it from here")
-        ->check(client::between(0.0, 1e6))
+        ->check(between(0.0, 1e6))
         ->option_text("SECONDS");
     add.callback([&request, centre, half_extent, radius] {
         request.kind = "add_roi";
@@ -152,9 +152,7 @@ void declare_simple(CLI::App& app, CommandLine& line)
 void declare_step(CLI::App& app, CommandLine& line)
 {
     line.request.frames = 1;
-    app.add_option("N", line.request.frames, "Frames to run")
-        ->check(client::at_least_one())
-        ->option_text("[1]");
+    app.add_option("N", line.request.frames, "Frames to run")->check(at_least_one())->option_text("[1]");
     declare_simple(app, line);
 }
 

@@ -20,7 +20,7 @@ constexpr double most = 1e9;
 CLI::Option* add_count(CLI::App& app, const char* name, std::uint32_t& value, const char* help)
 {
     return app.add_option(name, value, help)
-        ->check(client::between<std::uint32_t>(0, most_clients))
+        ->check(between<std::uint32_t>(0, most_clients))
         ->option_text("N [" + std::to_string(value) + "]");
 }
 
@@ -32,17 +32,14 @@ CLI::Option* add_number(CLI::App& app, const char* name, double& value, double m
     if (preset.back() == '.')
         preset.pop_back();
     return app.add_option(name, value, help)
-        ->check(client::between(0.0, maximum))
+        ->check(between(0.0, maximum))
         ->option_text(std::string(unit) + " [" + preset + "]");
 }
 
 void add_limit(CLI::App& app, const char* name, std::optional<double>& value, const char* unit,
                const char* help)
 {
-    app.add_option(name, value, help)
-        ->check(client::between(-most, most))
-        ->option_text(unit)
-        ->group("Limits");
+    app.add_option(name, value, help)->check(between(-most, most))->option_text(unit)->group("Limits");
 }
 
 void declare_subscribers(CLI::App& app, Options& options)
@@ -87,6 +84,7 @@ void declare_commanders(CLI::App& app, Options& options)
                "Regions lie within so far of the origin, in the scene's unit")
         ->group(group);
     app.add_option("--commands", options.commands, "End after so many commands, or when the time is over")
+        ->check(at_least_zero<std::uint64_t>())
         ->option_text("N")
         ->group(group);
 }
@@ -116,11 +114,14 @@ void declare(CLI::App& app, Options& options)
                  "Runs with 1, 2, 4 and so on up to --subscribers: where this machine's bandwidth ends");
     app.add_option("--cpus", options.cpus, "Processors that the clients run on, from 0")
         ->delimiter(',')
-        ->check(client::between(0, 1023))
+        ->check(between(0, 1023))
         ->option_text("LIST");
-    app.add_option("--seed", options.seed, "Of all that is random")->option_text("N [1]");
+    app.add_option("--seed", options.seed, "Of all that is random")
+        ->check(at_least_zero<std::uint64_t>())
+        ->option_text("N [1]");
     app.add_flag("--json", options.json, "Print the report as one JSON object on the last line, too");
     app.add_option("--picture", options.picture, "Draw latencies and delivered shares, with gnuplot")
+        ->check(writable_file())
         ->option_text("FILE.png");
     client::add_server_options(app, options.server, "Seconds to wait for a server");
     app.set_version_flag("--version", "slod-stress " + std::string(version()));

@@ -77,7 +77,7 @@ void declare_look(CLI::App& app, CommandLine& line)
            "--range", take_range, "What the ends of the colours stand for; without it, the values at hand")
         ->option_text("LOW,HIGH");
     app.add_option("--exposure", line.exposure, "Brightness; without it, by the light that there is")
-        ->check(client::between(1e-6, 1e6))
+        ->check(between(1e-6, 1e6))
         ->option_text("FACTOR [1]");
     app.add_flag_callback(
         "--no-outlines", [&line] { line.outlines = false; }, "Do not draw the regions of interest");
@@ -114,14 +114,16 @@ void declare(CLI::App& app, CommandLine& line)
         ->option_text("FOLDER [.]");
     CLI::Option* const screenshot =
         app.add_option("--screenshot", line.screenshot, "Write one PNG picture and end; needs no screen")
+            ->check(writable_file())
             ->option_text("FILE")
             ->excludes(follow);
     app.add_option("--frames", line.frames, "With --screenshot: complete frames to wait for")
-        ->check(client::at_least_one())
+        ->check(at_least_one())
         ->needs(screenshot)
         ->option_text("N [1]");
     app.add_option("--from-frame", line.from_frame,
                    "With --screenshot: wait for the server's frame of this number")
+        ->check(at_least_zero<std::uint64_t>())
         ->needs(screenshot)
         ->option_text("N [0]");
     app.set_version_flag("--version", "slod-viewer " + std::string(version()));

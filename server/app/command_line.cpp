@@ -1,11 +1,11 @@
 #include "app/command_line.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 
+#include "idl/option_checks.hpp"
 #include "idl/version.hpp"
 
 namespace slod {
@@ -36,7 +36,7 @@ void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
     auto* input = app.add_option("--input", line.input, "Initial conditions, instead of the scene's own")
                       ->option_text("FILE");
     auto* frames = app.add_option("--frames", line.frames, "Frames to run; without it, until stopped")
-                       ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+                       ->check(at_least_one())
                        ->option_text("N");
     auto* settings = app.add_option("--set", line.settings,
                                     "A setting, table.key=value, over the scene's; may be repeated")
@@ -53,16 +53,23 @@ void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
         ->excludes(settings);
     app.add_flag("--free-run", line.free_run, "Run as fast as possible instead of at server.frame_rate");
     app.add_option("--threads", shorthands.threads, "Short for --set server.threads=N; 0 is one per core")
+        ->check(at_least_zero<std::uint32_t>())
         ->option_text("N");
     app.add_flag("--no-dds", shorthands.no_dds, "Short for --set wire.enabled=false");
-    app.add_option("--domain", shorthands.domain, "Short for --set wire.domain=N")->option_text("N");
+    app.add_option("--domain", shorthands.domain, "Short for --set wire.domain=N")
+        ->check(at_least_zero<std::uint32_t>())
+        ->option_text("N");
     app.add_option("--report", line.report, "Write figures of the run, as JSON, at its end")
+        ->check(writable_file())
         ->option_text("FILE");
     app.add_option("--trace", line.trace, "Write a line for each frame, as CSV, as the run goes")
+        ->check(writable_file())
         ->option_text("FILE");
     app.add_option("--picture", line.picture, "Write a density map of the last state, as PNG")
+        ->check(writable_file())
         ->option_text("FILE");
     app.add_option("--output-dir", line.output_folder, "Write the input log here, for --replay")
+        ->check(writable_folder())
         ->option_text("FOLDER");
     app.add_flag("--explain", line.explain, "Print what the scene comes down to, and run nothing");
     app.add_flag("--check", line.check,

@@ -12,8 +12,8 @@
 
 namespace slod {
 
-/// The files that a run leaves behind. Opened before it, so that a place that cannot be written ends the
-/// program at once and not after the run.
+/// The files that a run leaves behind. Opened before it, so that what the command line could not foresee ends
+/// the program at once and not after the run.
 class Outputs {
 public:
     /// Throws std::system_error, naming the place.

@@ -6,6 +6,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include "idl/option_checks.hpp"
+
 namespace slod::cost {
 
 int complain(const Problems& problems)
@@ -23,7 +25,7 @@ int team_size(int threads)
 void add_threads_option(CLI::App& command, int& threads)
 {
     command.add_option("--threads", threads, "Threads; without it, one per core")
-        ->check(CLI::Range(1, 1024))
+        ->check(between(1, 1024))
         ->option_text("N");
 }
 

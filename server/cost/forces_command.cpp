@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "cost/bodies.hpp"
 #include "cost/command.hpp"
+#include "idl/option_checks.hpp"
 
 namespace slod::cost {
 namespace {
@@ -51,29 +52,32 @@ ForcesCommand::ForcesCommand(CLI::App& app)
             "body")
         ->option_text("MODEL");
     command_->add_option("--n", count_, "Bodies of a model without a file; 100000")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
+        ->check(between<std::size_t>(1, 100'000'000))
         ->option_text("N");
     command_->add_option("--softening", softening_, "Plummer softening length; 0.01")
-        ->check(CLI::Range(0.0, 1e30))
+        ->check(between(0.0, 1e30))
         ->option_text("LENGTH");
     CLI::Option_group* const precision = command_->add_option_group(
         "precision", "One of these; without any of them, gravity's default settings");
     precision->add_option("--accuracy", accuracy_, "Median relative error to aim at")
-        ->check(CLI::Range(least_accuracy, most_accuracy))
+        ->check(between(least_accuracy, most_accuracy))
         ->option_text("E");
     precision->add_option("--theta", theta_, "Opening angle of the geometric criterion")
-        ->check(CLI::Range(0.01, widest_opening))
+        ->check(between(0.01, widest_opening))
         ->option_text("T");
     precision->add_option("--tolerance", tolerance_, "Force tolerance of the relative criterion")
-        ->check(CLI::Range(1e-9, 1.0))
+        ->check(between(1e-9, 1.0))
         ->option_text("T");
     precision->require_option(0, 1);
     add_threads_option(*command_, threads_);
     command_->add_option("--repeats", repeats_, "Evaluations, of which times are medians; 5")
-        ->check(CLI::Range(1, 10'000))
+        ->check(between(1, 10'000))
         ->option_text("N");
-    command_->add_option("--seed", seed_, "Of a model without a file; 1")->option_text("N");
+    command_->add_option("--seed", seed_, "Of a model without a file; 1")
+        ->check(at_least_zero<std::uint64_t>())
+        ->option_text("N");
     command_->add_option("--accelerations", accelerations_, "Write them, a line \"ax ay az\" for each body")
+        ->check(writable_file())
         ->option_text("FILE");
     command_->add_flag("--json", as_json_, "Print one JSON object instead");
     command_->footer("Errors are those of 2,000 bodies beside sums over all pairs in double.\n"
@@ -85,9 +89,6 @@ int ForcesCommand::run() const
     const auto bodies = make_bodies(model_, count_, seed_);
     if (const auto* problems = std::get_if<Problems>(&bodies))
         return complain(*problems);
-    if (!accelerations_.empty() && !std::ofstream(accelerations_, std::ios::app))
-        return complain(
-            {accelerations_.string() + ": cannot be written; name a file in a folder that is there."});
     ForceReport report;
     ThreadTeam(team_size(threads_)).run([&] { report = measure(std::get<ParticleSet>(bodies)); });
     std::printf("%s\n", as_json_ ? json_text(report).c_str() : text(report).c_str());

@@ -13,6 +13,7 @@
 #include "cost/report_files.hpp"
 #include "cost/sweep.hpp"
 #include "idl/gnuplot.hpp"
+#include "idl/option_checks.hpp"
 #include "idl/version.hpp"
 
 namespace slod::cost {
@@ -40,6 +41,7 @@ SceneCommand::SceneCommand(CLI::App& app)
 {
     command_->add_option("SCENE", scene_, "Scene file (TOML)")->option_text("FILE")->required();
     command_->add_option("--out", folder_, "Folder of cost.csv, cost.json, cost.png and cost.svg")
+        ->check(writable_folder())
         ->option_text("FOLDER");
     command_->add_option("--input", input_, "Initial conditions, instead of the scene's own")
         ->option_text("FILE");
@@ -48,7 +50,7 @@ SceneCommand::SceneCommand(CLI::App& app)
         ->allow_extra_args(false)
         ->option_text("KEY=VALUE");
     command_->add_option("--frames", frames_, "Frames of each run; 300, or 100 with --quick")
-        ->check(CLI::Range(10, 1'000'000))
+        ->check(between(10, 1'000'000))
         ->option_text("N");
     add_threads_option(*command_, threads_);
     command_->add_flag("--quick", quick_, "Fewer settings, frames and seeds: some minutes");

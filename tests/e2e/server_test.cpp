@@ -125,10 +125,10 @@ TEST_F(Server, RefusesAPlaceItCannotWriteBeforeTheFirstFrame)
     write_file(folder_ / "file", "");
     const std::string no_folder = folder_ / "file" / "folder";
     for (const Arguments& output : {Arguments{"--report", place}, Arguments{"--picture", place},
-                                    Arguments{"--output-dir", no_folder}}) {
+                                    Arguments{"--trace", place}, Arguments{"--output-dir", no_folder}}) {
         const ServerRun run = run_server({scene_, "--no-dds", output[0], output[1]});
-        EXPECT_EQ(run.exit_code, 1) << run.output;
-        EXPECT_TRUE(contains(run.output, output[1])) << run.output;
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_TRUE(contains(run.output, output[0] + ": ")) << run.output;
         EXPECT_FALSE(contains(run.output, " started ")) << run.output;
     }
 }

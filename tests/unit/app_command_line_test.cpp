@@ -48,6 +48,7 @@ TEST(CommandLine, WrongUsageIsRefused)
                                                       {"scene.toml", "--frames", "many"},
                                                       {"scene.toml", "second.toml"},
                                                       {"scene.toml", "--threads", "-1"},
+                                                      {"scene.toml", "--frames", "99999999999999999999"},
                                                       {"scene.toml", "--replay", "input.log"},
                                                       {"--replay", "input.log", "--set", "a.b=1"},
                                                       {"--replay", "input.log", "--frames", "3"}};
@@ -55,6 +56,21 @@ TEST(CommandLine, WrongUsageIsRefused)
         const auto parsed = parse(arguments);
         const auto* code = std::get_if<ExitCode>(&parsed);
         EXPECT_TRUE(code && *code == ExitCode::Usage) << testing::PrintToString(arguments);
+    }
+}
+
+TEST(CommandLine, APlaceThatCannotBeWrittenIsWrongUsageWithTheRemedy)
+{
+    for (const char* option : {"--report", "--picture", "--trace"}) {
+        testing::internal::CaptureStderr();
+        const auto parsed = parse({"scene.toml", option, "/no/folder/file"});
+        const std::string said = testing::internal::GetCapturedStderr();
+        const auto* code = std::get_if<ExitCode>(&parsed);
+        EXPECT_TRUE(code && *code == ExitCode::Usage) << option;
+        EXPECT_TRUE(said.starts_with(std::string(option) + ": there is no folder /no/folder for "
+                                                           "/no/folder/file; make it first, or name a file "
+                                                           "elsewhere\n"))
+            << said;
     }
 }
 
