@@ -6,8 +6,8 @@ namespace slod::client {
 enum class ExitCode : int {
     Success = 0,
     Failure = 1,          ///< network or screen not usable; of slod-stress: not all that must be so was
-    Usage = 2,            ///< the command line cannot be understood
-    InvalidArgument = 65, ///< it can, but a value in it cannot be right
+    Usage = 2,            ///< the command line is wrong, which is seen without a server
+    InvalidArgument = 65, ///< the server refuses what was asked of it
     NotFound = 66,        ///< a name that was asked for does not exist
     NoServer = 69,
     TimedOut = 75,     ///< a server is there, but the answer did not come in time

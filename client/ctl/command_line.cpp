@@ -45,8 +45,9 @@ std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* con
     app.footer(
         "Data goes to stdout, everything else to stderr. CYCLONEDDS_URI, when set, replaces the profile.\n"
         "--json, --domain, --profile and --timeout go with every command.\n"
-        "Exit codes: 0 done, 1 network not usable or failed in the server, 2 wrong usage, 65 invalid value,\n"
-        "66 unknown name, 69 no server, 75 timed out, 77 not permitted.\n"
+        "Exit codes: 0 done, 1 network not usable or failed in the server, 2 wrong usage, seen without a\n"
+        "server, 65 refused as invalid by the server, 66 unknown name, 69 no server, 75 timed out,\n"
+        "77 not permitted.\n"
         "Example: slodctl watch --clusters --json --count 10");
     CommandLine line;
     declare(app, line);

@@ -49,7 +49,7 @@ ExitCode run_steering(const CommandLine& line, const std::stop_token& stop)
 {
     if (const std::string wrong = problem(line.request); !wrong.empty()) {
         complain(wrong);
-        return ExitCode::InvalidArgument;
+        return ExitCode::Usage;
     }
     client::Connection connection(line.server.domain, line.server.profile, {});
     client::Commander commander(connection.participant());

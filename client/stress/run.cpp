@@ -90,7 +90,7 @@ ExitCode run(const Options& options, const std::stop_token& stop)
     if (!run_on(options.cpus)) {
         complain("not all processors that --cpus names are there for this program; "
                  "name some of those that taskset --cpu-list --pid $$ lists");
-        return ExitCode::InvalidArgument;
+        return ExitCode::Usage;
     }
     Observer observer(options.server.domain, options.server.profile);
     if (!client::wait_until(observer, stop, deadline(options.server),

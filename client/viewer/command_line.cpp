@@ -137,8 +137,8 @@ std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* con
                  "slod-viewer");
     app.footer(
         "In the window, h shows keys and mouse. CYCLONEDDS_URI, when set, replaces the profile.\n"
-        "Exit codes: 0 done, 1 network or screen not usable, 2 wrong usage, 65 invalid value, 66 unknown\n"
-        "name, 69 no server, 75 timed out, 77 not permitted.\n"
+        "Exit codes: 0 done, 1 network or screen not usable, 2 wrong usage or camera file, 66 unknown name,\n"
+        "69 no server, 75 timed out, 77 not permitted.\n"
         "Example: slod-viewer --screenshot galaxy.png --camera \"distance=60 elevation=40\" --log");
     CommandLine line;
     declare(app, line);
@@ -149,7 +149,7 @@ std::variant<CommandLine, ExitCode> parse_command_line(int argc, const char* con
             line.camera = load_camera(line.camera_file);
     } catch (const std::runtime_error& error) {
         std::fprintf(stderr, "slod-viewer: %s\n", error.what());
-        return ExitCode::InvalidArgument;
+        return ExitCode::Usage;
     }
     return line;
 }

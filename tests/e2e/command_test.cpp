@@ -161,8 +161,8 @@ TEST_F(Commands, SlodctlsExitCodeSaysWhatBecameOfACommand)
     EXPECT_EQ(answer.at("result"), "region_exists");
     EXPECT_EQ(control({"roi", "set", "a", "lunch=1"}), int(ExitCode::InvalidArgument));
     EXPECT_EQ(answer.at("field"), "lunch");
-    EXPECT_EQ(control({"roi", "set", "a", "lunch"}), int(ExitCode::InvalidArgument));
-    EXPECT_EQ(control({"roi", "move", "a", "--centre", "1,2"}), int(ExitCode::InvalidArgument));
+    EXPECT_EQ(control({"roi", "set", "a", "lunch"}), int(ExitCode::Usage));
+    EXPECT_EQ(control({"roi", "move", "a", "--centre", "1,2"}), int(ExitCode::Usage));
     EXPECT_EQ(control({"roi", "move", "a", "--centre", "1,2,3", "--if-revision", "12345"}),
               int(ExitCode::InvalidArgument));
     EXPECT_EQ(answer.at("result"), "stale_revision");
@@ -179,6 +179,8 @@ TEST_F(Commands, SlodctlsExitCodeSaysWhatBecameOfACommand)
 }
 
 TEST_F(Commands, AServerThatTakesNoCommandsMakesThemTimeOut)
+    EXPECT_EQ(control({"set", "gravity.strength=" + std::string(5000, '1')}), int(ExitCode::Usage))
+        << "no message has room for it";
 {
     const Child running(server({"--set", "wire.commands=false"}));
     client::Connection connection = connect({});

@@ -129,8 +129,8 @@ TEST_F(Stress, TheExitCodeSaysWhetherLimitsHeld)
     EXPECT_NE(said.find("--picture: there is no folder "), std::string::npos) << said;
     EXPECT_EQ(load({"--commands", "5"}), 2) << "and nobody commands";
     EXPECT_EQ(load({"--sweep", "--subscribers", "0"}), 2);
-    EXPECT_EQ(load({"--cpus", "0,1023"}), 65) << "Linux itself would take the first alone";
-    EXPECT_EQ(load({"--subscribers", "many"}), 65);
+    EXPECT_EQ(load({"--cpus", "0,1023"}), 2) << "Linux itself would take the first alone";
+    EXPECT_EQ(load({"--subscribers", "many"}), 2);
     EXPECT_EQ(load({"--lunch"}), 2);
 }
 

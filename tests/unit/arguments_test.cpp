@@ -48,7 +48,7 @@ TEST(Arguments, TheServerIsAsTheOptionsSayAndElseOnThisMachine)
     EXPECT_EQ(program.printed, "");
 }
 
-TEST(Arguments, TheExitCodeTellsAWrongValueFromAWrongUsage)
+TEST(Arguments, WhateverIsWrongIsWrongUsageAndSaysWhatIsRight)
 {
     Program program;
     EXPECT_EQ(program.reads({"--help"}), ExitCode::Success);
@@ -58,10 +58,10 @@ TEST(Arguments, TheExitCodeTellsAWrongValueFromAWrongUsage)
                                                   {"--domain", "x"},
                                                   {"--profile", "wan"},
                                                   {"--timeout", "-1"}}) {
-        EXPECT_EQ(program.reads(wrong), ExitCode::InvalidArgument) << wrong[1];
+        EXPECT_EQ(program.reads(wrong), ExitCode::Usage) << wrong[1];
         EXPECT_NE(program.printed.find(wrong[0]), std::string::npos) << program.printed;
     }
-    EXPECT_EQ(program.reads({"--timeout", "nan"}), ExitCode::InvalidArgument);
+    EXPECT_EQ(program.reads({"--timeout", "nan"}), ExitCode::Usage);
     EXPECT_NE(program.printed.find("nan is no number from 0 to 86400"), std::string::npos) << program.printed;
     EXPECT_EQ(program.reads({"--lunch"}), ExitCode::Usage);
     EXPECT_EQ(program.reads({"--domain"}), ExitCode::Usage);

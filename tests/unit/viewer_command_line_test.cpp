@@ -54,7 +54,7 @@ TEST_F(ViewerCommandLine, AFileWithoutACameraIsRefusedByItsName)
     const auto refused = parsed({"--camera-file", file.string()});
     const std::string said = testing::internal::GetCapturedStderr();
     ASSERT_TRUE(std::holds_alternative<ExitCode>(refused));
-    EXPECT_EQ(std::get<ExitCode>(refused), ExitCode::InvalidArgument);
+    EXPECT_EQ(std::get<ExitCode>(refused), ExitCode::Usage);
     EXPECT_NE(said.find(file.string()), std::string::npos) << said;
     EXPECT_NE(said.find("distance"), std::string::npos) << said;
 }
