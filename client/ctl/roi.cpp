@@ -10,8 +10,8 @@ Json summary_of(const client::RegionInfo& region)
 {
     const Json all = json_of(region);
     Json summary;
-    for (const char* name :
-         {"region", "revision", "shape", "centre", "precedence", "max_cluster_size", "clusters", "particles"})
+    for (const char* name : {"region", "revision", "shape", "centre", "precedence", "max_cluster_size",
+                             "present_max_cluster_size", "clusters", "particles"})
         summary[name] = all.at(name);
     return summary;
 }
