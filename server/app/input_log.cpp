@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* format_name = "slod-input-log";
 constexpr int format_version = 2;
+constexpr const char* no_log = "this is no input log; name the input.log of a run that had --output-dir";
 
 std::uint64_t hash_from(const std::string& text)
 {
@@ -48,9 +49,13 @@ Json to_json(const InputLogHeader& header)
 
 InputLogHeader header_from(const Json& line)
 {
-    if (line.value("format", "") != format_name || line.value("format_version", 0) != format_version)
-        throw std::runtime_error("not the header of an input log of format version " +
-                                 std::to_string(format_version));
+    if (!line.is_object() || line.value("format", "") != format_name)
+        throw std::runtime_error(no_log);
+    if (const int given = line.value("format_version", 0); given != format_version)
+        throw std::runtime_error("an input log of format version " + std::to_string(given) +
+                                 ", and this server reads " + std::to_string(format_version) +
+                                 "; repeat the run with the slod-server that wrote it, version " +
+                                 line.value("version", "unknown"));
     return {.version = line.at("version"),
             .scene_name = line.at("scene_name"),
             .scene_text = line.at("scene_text"),
@@ -137,14 +142,15 @@ std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& fil
             else
                 read_line(line, log);
         }
-    } catch (const Json::exception& error) {
-        return Problems{file.string() + ":" + std::to_string(line_number) +
-                        ": no line of an input log: " + error.what()};
+    } catch (const Json::exception&) {
+        return Problems{
+            file.string() + ":" + std::to_string(line_number) + ": " +
+            (line_number == 1 ? no_log : "the line is damaged, which ends the log; use a whole copy of it")};
     } catch (const std::exception& error) {
         return Problems{file.string() + ":" + std::to_string(line_number) + ": " + error.what()};
     }
     if (line_number == 0)
-        return Problems{file.string() + ": the input log is empty"};
+        return Problems{file.string() + ": the input log is empty; name one of a run that has begun"};
     return log;
 }
 

@@ -121,6 +121,7 @@ TEST_F(InputLogTest, ABadLineIsNamedByFileAndNumber)
         InputLogWriter(folder_, header_).record(change_);
         std::ofstream(file_, std::ios::app) << line << '\n';
         EXPECT_EQ(problem().find(file_.string() + ":3: "), 0U) << problem();
+        EXPECT_EQ(problem().find("json.exception"), std::string::npos) << problem();
     }
 }
 
@@ -140,11 +141,16 @@ TEST_F(InputLogTest, AnotherKindOfFileIsNoLog)
     const auto replaced = [&](const std::string& part, const std::string& by) {
         return std::string(log).replace(log.find(part), part.size(), by);
     };
-    for (const std::string& text :
-         {std::string(), std::string("title = \"a scene\"\n"), replaced("slod-input-log", "another-log"),
-          replaced("\"format_version\":2", "\"format_version\":1")}) {
+    const std::vector<std::pair<std::string, std::string>> others{
+        {"", "is empty; name one"},
+        {"title = \"a scene\"\n", ":1: this is no input log; name the input.log"},
+        {"3\n", ":1: this is no input log; name the input.log"},
+        {replaced("slod-input-log", "another-log"), ":1: this is no input log; name the input.log"},
+        {replaced("\"format_version\":2", "\"format_version\":1"),
+         "format version 1, and this server reads 2"}};
+    for (const auto& [text, says] : others) {
         write_file(file_, text);
-        EXPECT_NE(problem(), "") << text;
+        EXPECT_NE(problem().find(says), std::string::npos) << problem();
     }
 }
 
