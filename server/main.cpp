@@ -44,9 +44,11 @@ try {
         return complain(*problems, slod::ExitCode::Usage);
     auto& job = std::get<slod::Job>(loaded);
     if (line.check)
-        return say(slod::soundness(job));
+        say(slod::soundness(job));
     if (line.explain)
-        return say(slod::plan_text(job));
+        say(slod::plan_text(job));
+    if (line.check || line.explain)
+        return int(slod::ExitCode::Success);
     if (signals.token().stop_requested())
         return say("stopped before the first frame");
 

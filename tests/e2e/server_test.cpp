@@ -160,6 +160,8 @@ TEST_F(Server, ChecksExplainsAndListsKeysWithoutRunning)
     const ServerRun explained = run_server({scene_, "--explain"});
     EXPECT_EQ(explained.exit_code, 0);
     EXPECT_TRUE(contains(explained.output, "emit")) << explained.output;
+    const ServerRun both = run_server({scene_, "--check", "--explain"});
+    EXPECT_EQ(both.output, check.output + explained.output);
     const ServerRun keys = run_server({"--keys"});
     EXPECT_EQ(keys.exit_code, 0);
     EXPECT_TRUE(contains(keys.output, "max_cluster_size")) << keys.output;
