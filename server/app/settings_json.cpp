@@ -87,6 +87,8 @@ std::string record(const std::string& table, const Json& settings)
 Json settings_json(const Scene& scene)
 {
     Scene copy = scene; // the visitor is shared with the reader, which writes
+    if (auto& gravity = copy.simulation.gravity)
+        gravity = with_accuracy(*gravity);
     Json all = Json::object();
     for_each_section(copy, AddSection{all});
     return all;

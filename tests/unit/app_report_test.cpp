@@ -153,6 +153,17 @@ TEST(Status, NamesThePlannedPhasesAlone)
     LoopMeans means;
     means.profile[Phase::Forces] = 7.5;
     means.profile[Phase::Emit] = 1;
+// The log's lines are made of the same.
+TEST(Report, SettingsThatAnAccuracyChoosesAreThoseChosen)
+{
+    Scene scene;
+    scene.simulation.gravity = GravitySettings{.accuracy = 3e-3};
+    const nlohmann::json gravity = reported(scene, {})["settings"]["gravity"];
+    EXPECT_EQ(gravity["accuracy"], 3e-3);
+    EXPECT_EQ(gravity["force_tolerance"], with_accuracy(*scene.simulation.gravity).force_tolerance);
+    EXPECT_NE(gravity["force_tolerance"], GravitySettings{}.force_tolerance) << "or nothing is seen";
+}
+
     for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan(), {}),
                                     status_record(snapshot(8, 0), means, gravity_plan(), {})}) {
         EXPECT_NE(text.find("7.5"), std::string::npos) << text;
