@@ -11,6 +11,11 @@
 
 namespace slod {
 
+inline void write_file(const std::filesystem::path& file, std::string_view content)
+{
+    std::ofstream(file, std::ios::binary) << content;
+}
+
 /// A new folder, of this object alone, that goes with it.
 class ScratchFolder {
 public:
@@ -31,14 +36,16 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
 
+    /// A file of this name in it, with this content.
+    std::filesystem::path write(const std::string& name, std::string_view content) const
+    {
+        write_file(path_ / name, content);
+        return path_ / name;
+    }
+
 private:
     std::filesystem::path path_;
 };
-
-inline void write_file(const std::filesystem::path& file, std::string_view content)
-{
-    std::ofstream(file, std::ios::binary) << content;
-}
 
 inline std::string file_content(const std::filesystem::path& file)
 {

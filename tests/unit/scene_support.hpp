@@ -1,42 +1,15 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <string_view>
-#include <unistd.h>
 #include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "scene/scene.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace slod::test {
-
-/// A folder of this process's own, gone at the end of the test.
-class ScratchFolder {
-public:
-    ScratchFolder()
-        : path_(std::filesystem::temp_directory_path() / ("slod-scene-" + std::to_string(getpid())))
-    {
-        std::filesystem::create_directories(path_);
-    }
-    ~ScratchFolder() { std::filesystem::remove_all(path_); }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    std::filesystem::path path() const { return path_; }
-
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const
-    {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// The least that is a scene.
 inline const std::string minimal_scene = "[[kind]]\n"
