@@ -93,7 +93,8 @@ Problems problems(const Scene& scene)
     if (scene.initial.model == InitialModel::None && !std::isfinite(scene.simulation.background.max_breadth))
         found.push_back(
             "background.max_breadth = inf leaves the grid's cells without a size, as there are no "
-            "particles at the start; set it to a length.");
+            "particles at the start; set it to a length, such as a twentieth of what particles fly "
+            "through.");
     return found;
 }
 

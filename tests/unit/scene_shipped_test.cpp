@@ -56,6 +56,24 @@ TEST_P(ShippedScene, ExplainsEveryKey)
         EXPECT_TRUE(has_comment || key == " title") << key;
 }
 
+/// The first block of TOML in README.md.
+std::string readme_scene()
+{
+    const std::string readme = file_content(README);
+    const std::string begin = "```toml\n";
+    const std::size_t first = readme.find(begin);
+    if (first == std::string::npos)
+        return {};
+    return readme.substr(first + begin.size(), readme.find("```\n", first + 1) - first - begin.size());
+}
+
+TEST(ReadmeScene, IsSoundAndThrowsOutParticles)
+{
+    const Scene scene = scene_of(readme_scene());
+    EXPECT_EQ(scene.simulation.emitters.size(), 1U);
+    EXPECT_TRUE(std::holds_alternative<InitialParticles>(load_initial(scene, {})));
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
                          testing::Values("bowl", "cones", "fountain", "galaxy", "galaxy-collision",
                                          "moving-roi", "paper-fountain", "turbulence"));
