@@ -70,7 +70,13 @@ std::unique_ptr<Sheet> make_sheet(const ColliderSettings& settings)
     return std::make_unique<Sheet>(mesh, settings.thickness);
 }
 
-const SolidKind mesh_kind{sheet_problems, nullptr};
-const SolidKind heightfield_kind{sheet_problems, nullptr};
+const SolidKind mesh_kind{
+    .problems = sheet_problems, .make = nullptr, .file = true, .scale = true, .thickness = true};
+const SolidKind heightfield_kind{.problems = sheet_problems,
+                                 .make = nullptr,
+                                 .file = true,
+                                 .scale = true,
+                                 .spacing = true,
+                                 .thickness = true};
 
 } // namespace slod

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "effects/shape_keys.hpp"
+
 namespace slod {
 namespace {
 
@@ -16,7 +18,20 @@ static_assert(kinds.size() == names(ColliderShape{}).size());
 
 Problems problems(const ColliderSettings& settings)
 {
-    return kinds[std::size_t(settings.shape)]->problems(settings);
+    const SolidKind& kind = *kinds[std::size_t(settings.shape)];
+    const ColliderSettings defaults;
+    const std::array<ShapeKey, 8> keys{
+        {{"normal", settings.normal != defaults.normal, kind.normal},
+         {"radius", settings.radius != defaults.radius, kind.radius},
+         {"half_extent", settings.half_extent != defaults.half_extent, kind.half_extent},
+         {"axis", settings.axis != defaults.axis, kind.axis},
+         {"file", settings.file != defaults.file, kind.file},
+         {"scale", settings.scale != defaults.scale, kind.scale},
+         {"spacing", settings.spacing != defaults.spacing, kind.spacing},
+         {"thickness", settings.thickness != defaults.thickness, kind.thickness}}};
+    Problems found = kind.problems(settings);
+    refuse_unused(keys, names(settings.shape)[std::size_t(settings.shape)], found);
+    return found;
 }
 
 std::unique_ptr<Solid> make_solid(const ColliderSettings& settings)

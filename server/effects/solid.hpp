@@ -49,12 +49,16 @@ struct SolidKind {
     /// What is wrong with the settings of its shape, each with the key in front.
     Problems (*problems)(const ColliderSettings& settings);
     std::unique_ptr<Solid> (*make)(const ColliderSettings& settings); ///< null where it is a sheet
+    // Which keys besides the position say where it is and how large.
+    bool normal = false, radius = false, half_extent = false, axis = false;
+    bool file = false, scale = false, spacing = false, thickness = false;
 };
 
 extern const SolidKind plane_kind, sphere_kind, box_kind, cone_kind, capsule_kind, mesh_kind,
     heightfield_kind;
 
-/// What is wrong with a collider's geometry, each with the key in front; empty when nothing is.
+/// What is wrong with a collider's geometry, keys of other shapes among it, each with the key in front; empty
+/// when nothing is.
 Problems problems(const ColliderSettings& settings);
 
 /// The solid of settings without problems; null where they describe a sheet, which is none but many.

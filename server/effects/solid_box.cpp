@@ -53,6 +53,6 @@ std::unique_ptr<Solid> make_box(const ColliderSettings& settings)
 
 } // namespace
 
-const SolidKind box_kind{box_problems, make_box};
+const SolidKind box_kind{.problems = box_problems, .make = make_box, .half_extent = true};
 
 } // namespace slod

@@ -41,6 +41,7 @@ std::unique_ptr<Solid> make_capsule(const ColliderSettings& settings)
 
 } // namespace
 
-const SolidKind capsule_kind{capsule_problems, make_capsule};
+const SolidKind capsule_kind{
+    .problems = capsule_problems, .make = make_capsule, .radius = true, .axis = true};
 
 } // namespace slod

@@ -79,6 +79,6 @@ std::unique_ptr<Solid> make_cone(const ColliderSettings& settings)
 
 } // namespace
 
-const SolidKind cone_kind{cone_problems, make_cone};
+const SolidKind cone_kind{.problems = cone_problems, .make = make_cone, .radius = true, .axis = true};
 
 } // namespace slod

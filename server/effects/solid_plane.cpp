@@ -45,6 +45,6 @@ std::unique_ptr<Solid> make_plane(const ColliderSettings& settings)
 
 } // namespace
 
-const SolidKind plane_kind{plane_problems, make_plane};
+const SolidKind plane_kind{.problems = plane_problems, .make = make_plane, .normal = true};
 
 } // namespace slod

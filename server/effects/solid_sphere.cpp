@@ -28,6 +28,6 @@ std::unique_ptr<Solid> make_sphere(const ColliderSettings& settings)
 
 } // namespace
 
-const SolidKind sphere_kind{radius_problems, make_sphere};
+const SolidKind sphere_kind{.problems = radius_problems, .make = make_sphere, .radius = true};
 
 } // namespace slod

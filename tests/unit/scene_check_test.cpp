@@ -98,6 +98,34 @@ TEST(SimulationSettings, F25_RefuseADegenerateCollider)
     EXPECT_TRUE(one_says(problems(settings), {"collider appears 257 times; use at most 256."}));
 }
 
+// Each shape with a key of another one, of which the default says nothing.
+TEST(SimulationSettings, RefuseKeysThatACollidersShapeDoesNotHave)
+{
+    const auto says = [](const ColliderSettings& collider, const std::string& part) {
+        SimulationSettings settings = sound();
+        settings.colliders = {collider};
+        return only_says(problems(settings), {"collider.0." + part});
+    };
+    using enum ColliderShape;
+    EXPECT_TRUE(says({.name = "solid", .shape = Plane, .radius = 2},
+                     "radius is no key of shape = \"plane\"; leave it out"));
+    EXPECT_TRUE(
+        says({.name = "solid", .shape = Plane, .file = "bowl.obj"}, "file is no key of shape = \"plane\""));
+    EXPECT_TRUE(says({.name = "solid", .shape = Sphere, .half_extent = {1, 2, 1}}, "half_extent is no key"));
+    EXPECT_TRUE(says({.name = "solid", .shape = Sphere, .normal = {0, 1, 0}}, "normal is no key"));
+    EXPECT_TRUE(says({.name = "solid", .shape = Box, .axis = {0, 1, 0}}, "axis is no key"));
+    EXPECT_TRUE(says({.name = "solid", .shape = Cone, .thickness = 2}, "thickness is no key"));
+    EXPECT_TRUE(says({.name = "solid", .shape = Capsule, .scale = 2}, "scale is no key"));
+    EXPECT_TRUE(
+        says({.name = "solid", .shape = Mesh, .file = "bowl.obj", .spacing = 2}, "spacing is no key"));
+    EXPECT_TRUE(
+        says({.name = "solid", .shape = Heightfield, .radius = 2, .file = "hills.txt"}, "radius is no key"));
+    SimulationSettings settings = sound();
+    settings.colliders = {{.name = "post", .shape = Capsule, .radius = 2, .axis = {0, 0, 3}},
+                          {.name = "bowl", .shape = Mesh, .file = "bowl.obj", .scale = 2, .thickness = 0.1}};
+    EXPECT_EQ(problems(settings), Problems{});
+}
+
 TEST(SimulationSettings, RefuseADegenerateSink)
 {
     SimulationSettings settings = sound();

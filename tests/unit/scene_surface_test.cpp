@@ -189,10 +189,11 @@ TEST_F(SurfaceFile, OfAColliderIsRefusedWithTheKeysPlace)
     EXPECT_TRUE(only_says(found("file = 3\n"), {"s.toml:8: collider.0.file = 3 is no string"}));
 }
 
-TEST_F(SurfaceFile, IsNotReadForOtherShapes)
+TEST_F(SurfaceFile, IsRefusedUnreadForOtherShapes)
 {
-    const Scene scene = scene_of(minimal_scene + "[[collider]]\nname = \"floor\"\nfile = \"none.obj\"\n");
-    EXPECT_EQ(scene.simulation.colliders.front().mesh, nullptr);
+    EXPECT_TRUE(
+        only_says(problems_of(minimal_scene + "[[collider]]\nname = \"floor\"\nfile = \"none.obj\"\n"),
+                  {"s.toml:7: collider.0.file is no key of shape = \"plane\""}));
 }
 
 } // namespace

@@ -117,6 +117,26 @@ void mend(SinkSettings& sink)
     sink.outside = sink.outside && sink.shape != SinkShape::Plane;
 }
 
+/// Likewise a collider, of a shape without a file, as there is none of that name.
+void mend(ColliderSettings& collider)
+{
+    using enum ColliderShape;
+    const ColliderSettings defaults;
+    if (collider.shape == Mesh || collider.shape == Heightfield)
+        collider.shape = Plane;
+    const bool has_axis = collider.shape == Cone || collider.shape == Capsule;
+    const bool round = has_axis || collider.shape == Sphere;
+    collider.normal = collider.shape == Plane ? Vector3d(0, -0.0, 1) : defaults.normal;
+    collider.radius = round ? collider.radius + 1 : defaults.radius;
+    collider.half_extent =
+        collider.shape == Box ? Vector3d(collider.half_extent.array() + 1) : defaults.half_extent;
+    collider.axis = has_axis ? Vector3d(0, 1e-30, -2) : defaults.axis;
+    collider.file.clear();
+    collider.scale = defaults.scale;
+    collider.spacing = defaults.spacing;
+    collider.thickness = defaults.thickness;
+}
+
 /// A scene of random values that has no problems.
 Scene random_scene(std::uint64_t seed)
 {
@@ -147,14 +167,8 @@ Scene random_scene(std::uint64_t seed)
     }
     for (SinkSettings& sink : simulation.sinks)
         mend(sink);
-    for (ColliderSettings& collider : simulation.colliders) {
-        if (collider.shape == ColliderShape::Mesh || collider.shape == ColliderShape::Heightfield)
-            collider.shape = ColliderShape::Plane; // there is no file of that name
-        collider.normal = {0, -0.0, 1};
-        collider.radius += 1;
-        collider.half_extent.array() += 1;
-        collider.axis = {0, 1e-30, -2};
-    }
+    for (ColliderSettings& collider : simulation.colliders)
+        mend(collider);
     simulation.sharing.overlap = true;
     for (RegionOfInterest& region : simulation.regions) {
         region.direction = {0, 0.5, -1};
