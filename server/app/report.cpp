@@ -33,6 +33,11 @@ Json drift_json(const Drift& drift)
             {"kinetic_energy", drift.kinetic_energy}};
 }
 
+Json losses_json(const Losses& losses)
+{
+    return {{"mass", losses.mass}, {"momentum", vector_json(losses.momentum)}};
+}
+
 Json phases_json(const Plan& plan, const RunSummary& summary)
 {
     Json phases = Json::object();
@@ -77,7 +82,8 @@ std::string report(const ReportedRun& run)
          {{"start", conserved_json(summary.conserved_start)},
           {"end", conserved_json(summary.conserved_end)}}},
         {"unanswered_force", vector_json(summary.unanswered_force)},
-        {"drained", {{"mass", summary.drained.mass}, {"momentum", vector_json(summary.drained.momentum)}}},
+        {"drained", losses_json(summary.drained)},
+        {"killed", losses_json(summary.killed)},
         {"counts", counts_json(summary.events)},
         {"settings", settings_json(run.scene)},
     };

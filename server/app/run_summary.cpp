@@ -26,6 +26,7 @@ void RunSummary::add(const Snapshot& snapshot, double work_ms)
 
     add_events(events, snapshot.counts);
     drained += snapshot.drained;
+    killed += snapshot.killed;
 }
 
 Drift drift(const ConservedQuantities& start, const ConservedQuantities& end)

@@ -19,7 +19,7 @@ struct RunSummary {
     double wall_s = 0;            ///< first frame's start to last frame's end, the pacer's waits included
     FrameCounts events;           ///< for_each_event() of it: totals over the run
     Vector3d unanswered_force{0, 0, 0}; ///< at the end: Snapshot's
-    Drained drained;                    ///< by sinks, over the run
+    Losses drained, killed;             ///< by sinks and by colliders, over the run
     ConservedQuantities conserved_start;
     ConservedQuantities conserved_end;
     DurationHistogram frame_ms; ///< a frame's work, without the pacer's wait

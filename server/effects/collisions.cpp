@@ -73,34 +73,38 @@ Collisions::Outcome Collisions::fly(const UpdateContext& context, const Remaking
             air_ == nullptr ? felt.fields : air_->felt_by_member(felt, position, velocity);
         member.velocity -= half_kick;
         const auto met = colliders_.fly(member.position, member.velocity, context.step, acceleration, fields);
+        if (met.killed)
+            outcome.killed.add(double(member.mass), member.velocity);
         member.velocity -= half_kick;
         fates_[struck.first + i] = met.killed ? Fate::Killed : met.touched ? Fate::Touching : Fate::Free;
         outcome.touched = outcome.touched || met.touched;
         outcome.moved += member.position != position || member.velocity != velocity ? 1 : 0;
         outcome.impacts += met.impacts;
         outcome.cut_off += met.cut_off ? 1 : 0;
-        outcome.killed += met.killed ? 1 : 0;
     }
     return outcome;
 }
 
-std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts)
+std::uint64_t Collisions::put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts,
+                                   Losses& killed)
 {
     ClusterTable& clusters = context.store.clusters;
     left_out_ = 0;
+    killed = {};
     for (std::size_t i = 0; i < outcomes_.size(); ++i) {
         const Remaking::Mapped& struck = remaking_.mapped()[i];
         const Outcome& outcome = outcomes_[i];
         counts.impacts += outcome.impacts;
         counts.impacts_cut_off += outcome.cut_off;
-        counts.killed += outcome.killed;
+        killed += outcome.killed;
         if (keep(clusters, struck, outcome))
             continue;
         ++counts.taken_apart;
-        left_out_ += outcome.killed;
+        left_out_ += outcome.killed.particles;
         take_apart(clusters, struck, context.frame);
     }
     counts.struck += outcomes_.size();
+    counts.killed += killed.particles;
     remaking_.form(tree, context);
     return left_out_;
 }
@@ -112,7 +116,7 @@ bool Collisions::keep(ClusterTable& clusters, const Remaking::Mapped& struck, co
     const std::size_t slot = struck.slot.index;
     const bool withheld = clusters.columns.withheld && !clusters.withheld[slot].isZero(0);
     const bool carried = rules_.carries_members || struck.count == 1;
-    if (outcome.killed > 0)
+    if (outcome.killed.particles > 0)
         return false;
     const bool free = carried && !outcome.touched && !withheld;
     if (free)

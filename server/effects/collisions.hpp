@@ -5,6 +5,7 @@
 
 #include "effects/air.hpp"
 #include "effects/colliders.hpp"
+#include "effects/losses.hpp"
 #include "effects/remaking.hpp"
 
 namespace slod {
@@ -57,8 +58,9 @@ public:
 
     /// After they have moved: gives the struck ones their members' outcome, the new ones places in the tree.
     /// Those that were killed are left out, and of what is taken apart those whose time has come; returns how
-    /// many.
-    std::uint64_t put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts);
+    /// many. `killed` is set to what the former had when they were struck.
+    std::uint64_t put_back(SlodTree& tree, const UpdateContext& context, CollisionCounts& counts,
+                           Losses& killed);
 
 private:
     /// Where a struck cluster was, and how its members fared.
@@ -66,7 +68,8 @@ private:
         Vector3d position{0, 0, 0}, velocity{0, 0, 0};
         bool touched = false;    ///< any of them
         std::uint32_t moved = 0; ///< members whose place or velocity is another
-        std::uint64_t impacts = 0, cut_off = 0, killed = 0;
+        std::uint64_t impacts = 0, cut_off = 0;
+        Losses killed{};
     };
 
     enum class Fate : std::uint8_t { Free, Touching, Killed };

@@ -49,7 +49,7 @@ bool Draining::remembers(const ClusterTable& clusters, std::size_t slot) const
     return slot < past_.size() && past_[slot].cluster.formation == clusters.formation[slot];
 }
 
-Drained Draining::update(SlodTree& tree, const UpdateContext& context)
+Losses Draining::update(SlodTree& tree, const UpdateContext& context)
 {
     remaking_.find(context, [&](std::size_t slot) { return may_meet_one(context, slot); });
     if (sinks_.thin())
@@ -57,17 +57,13 @@ Drained Draining::update(SlodTree& tree, const UpdateContext& context)
     remaking_.change([&](const Remaking::Mapped& mapped, std::span<Particle> members) {
         return drain(context, mapped, members);
     });
-    Drained drained;
+    Losses drained;
     for (const Remaking::Mapped& mapped : remaking_.mapped()) {
         if (mapped.changed == 0)
             continue;
-        drained.particles += mapped.changed;
-        for (const Particle& member : remaking_.members_of(mapped)) {
-            if (member.expiry_frame > context.frame)
-                continue;
-            drained.mass += double(member.mass);
-            drained.momentum += double(member.mass) * member.velocity;
-        }
+        for (const Particle& member : remaking_.members_of(mapped))
+            if (member.expiry_frame <= context.frame)
+                drained.add(double(member.mass), member.velocity);
         remaking_.remake(mapped, context);
     }
     remaking_.form(tree, context);

@@ -4,25 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "effects/losses.hpp"
 #include "effects/remaking.hpp"
 #include "effects/sinks.hpp"
 
 namespace slod {
-
-/// What sinks took, in one frame or in several.
-struct Drained {
-    std::uint64_t particles = 0;
-    double mass = 0;            ///< scene mass
-    Vector3d momentum{0, 0, 0}; ///< scene mass * length / time
-
-    Drained& operator+=(const Drained& other)
-    {
-        particles += other.particles;
-        mass += other.mass;
-        momentum += other.momentum;
-        return *this;
-    }
-};
 
 /// Clusters among sinks. Those whose bound may have come into one in a frame are mapped out; of their members
 /// those that did die, and what they leave is formed anew. All others cost a distance.
@@ -47,7 +33,8 @@ public:
 
     /// At the end of frame `context.frame`, ends the lives of particles that are in a sink or were on their
     /// way, taken as straight. Of those that a collider took out of their cluster only the end of it counts.
-    Drained update(SlodTree& tree, const UpdateContext& context);
+    /// Returns what sinks took.
+    Losses update(SlodTree& tree, const UpdateContext& context);
 
 private:
     /// A cluster at a frame's start.

@@ -132,7 +132,8 @@ struct Snapshot {
     /// Potential energy of all particles in the effects of place that have one, where conserved quantities
     /// were asked for.
     double field_energy = 0;
-    Drained drained;                 ///< what sinks took in this frame
+    Losses drained;                  ///< what sinks took in this frame
+    Losses killed;                   ///< what colliders did, with the velocities of the impacts
     StepProfile profile;             ///< of this frame
     std::vector<RegionLoad> regions; ///< in order of precedence, the background last
     Detail detail;                   ///< that the frame was run at

@@ -240,7 +240,7 @@ void Simulation::State::propagate()
     if (!places_are_finite())
         refuse_unbounded(frame);
     if (collisions) {
-        snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts);
+        snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts, snapshot.killed);
         particle_count -= snapshot.counts.died;
     }
 }

@@ -123,6 +123,35 @@ TEST_P(OnHitOfClusters, KillingOnesLeaveOutWhoMeetsThemAndCountThem)
         EXPECT_GT(particle.position.norm(), 0.5 - 1e-6); // places are rounded to float
 }
 
+// Without forces a particle keeps its momentum until it is struck.
+TEST_P(OnHitOfClusters, WhatTheKilledHadAndWhatIsLeftIsWhatThereWas)
+{
+    SimulationSettings scene = settings(doing(OnHit::Kill, sphere({0, 0, 0}, 0.5)));
+    scene.uniform_gravity.reset();
+    ParticleSet initial = ball(500, 1, 0.5, 4, {0, 0, 2});
+    for (Particle& particle : initial) {
+        particle.mass = float(1 + particle.id % 3);
+        particle.velocity.z() -= 4;
+    }
+    Simulation simulation(scene, initial, {});
+    ConservedQuantities before = simulation.step({.conserved = true}).conserved;
+    // 500 masses are summed up twice, each time rounded by 2^-53 of all of them, below 1,000; at speeds
+    // below 8.
+    constexpr double mass_rounding = 1000 * 0x1p-53 * 1000, speed = 8;
+    double killed = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Snapshot& now = simulation.step({.conserved = true});
+        EXPECT_EQ(now.killed.particles, now.counts.killed);
+        ASSERT_NEAR(now.conserved.mass + now.killed.mass, before.mass, mass_rounding) << "frame " << i;
+        ASSERT_LE((now.conserved.momentum + now.killed.momentum - before.momentum).norm(),
+                  speed * mass_rounding)
+            << "frame " << i;
+        before = now.conserved;
+        killed += now.killed.mass;
+    }
+    EXPECT_GT(killed, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(Motions, OnHitOfClusters,
                          testing::Values(Motion::Flow, Motion::Stream, Motion::Rigid));
 

@@ -21,6 +21,7 @@ Snapshot snapshot(std::uint64_t frame, double forces_ms)
     snapshot.counts.born = 3;
     snapshot.counts.interactions = 100;
     snapshot.drained = {.particles = 1, .mass = 0.5, .momentum = {1, 0, -2}};
+    snapshot.killed = {.particles = 2, .mass = 0.25, .momentum = {0, 3, 0}};
     snapshot.profile[Phase::Forces] = forces_ms;
     snapshot.regions.push_back(
         {.row = 0, .clusters = 20, .particles = 1'234'567, .max_cluster_size = 23.5, .max_breadth = 1});
@@ -56,6 +57,8 @@ TEST(RunSummary, AddsUpEventsAndKeepsTheLastLevels)
     EXPECT_EQ(summary.events.interactions, 1000U);
     EXPECT_EQ(summary.drained.mass, 5);
     EXPECT_EQ(summary.drained.momentum, Vector3d(10, 0, -20));
+    EXPECT_EQ(summary.killed.mass, 2.5);
+    EXPECT_EQ(summary.killed.momentum, Vector3d(0, 30, 0));
     EXPECT_EQ(summary.particles, 1'234'567U);
     EXPECT_EQ(summary.clusters, 20U);
 }
@@ -97,6 +100,8 @@ TEST(Report, HasThePromisedKeys)
           "/counts/interactions", "/version", "/settings/time/step"})
         EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
     EXPECT_EQ(json["drained"]["mass"], 0.5);
+    EXPECT_EQ(json["killed"]["mass"], 0.25);
+    EXPECT_EQ(json["killed"]["momentum"], nlohmann::json({0.0, 3.0, 0.0}));
     EXPECT_EQ(json["scene"], "a scene");
     EXPECT_EQ(json["state_hash"], "0000000000000abc");
     EXPECT_EQ(json["counts"].size(), event_counts.size() + FieldCounts{}.size());
@@ -148,11 +153,6 @@ TEST(Report, SettingsAreThoseInEffect)
     EXPECT_EQ(settings["motion"]["kind"], "flow");
 }
 
-TEST(Status, NamesThePlannedPhasesAlone)
-{
-    LoopMeans means;
-    means.profile[Phase::Forces] = 7.5;
-    means.profile[Phase::Emit] = 1;
 // The log's lines are made of the same.
 TEST(Report, SettingsThatAnAccuracyChoosesAreThoseChosen)
 {
@@ -164,6 +164,11 @@ TEST(Report, SettingsThatAnAccuracyChoosesAreThoseChosen)
     EXPECT_NE(gravity["force_tolerance"], GravitySettings{}.force_tolerance) << "or nothing is seen";
 }
 
+TEST(Status, NamesThePlannedPhasesAlone)
+{
+    LoopMeans means;
+    means.profile[Phase::Forces] = 7.5;
+    means.profile[Phase::Emit] = 1;
     for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan(), {}),
                                     status_record(snapshot(8, 0), means, gravity_plan(), {})}) {
         EXPECT_NE(text.find("7.5"), std::string::npos) << text;

@@ -192,7 +192,7 @@ protected:
 TEST_F(DrainingTest, TakesJustThoseMembersThatAreInASink)
 {
     const ParticleSet before = test::members(world.store, 0);
-    const Drained drained = draining.update(world.tree, world.context(0));
+    const Losses drained = draining.update(world.tree, world.context(0));
     const ParticleSet after = test::members(world.store, 0);
     ParticleSet expected;
     for (const Particle& particle : before)
@@ -214,7 +214,7 @@ TEST_F(DrainingTest, TakesJustThoseMembersThatAreInASink)
 TEST_F(DrainingTest, KeepsTheBooksOfMassAndMomentum)
 {
     const ConservedQuantities before = conserved_quantities(world.store, 0);
-    const Drained drained = draining.update(world.tree, world.context(0));
+    const Losses drained = draining.update(world.tree, world.context(0));
     const ConservedQuantities after = conserved_quantities(world.store, 0);
     EXPECT_GT(drained.mass, 100);
     EXPECT_NEAR(after.mass + drained.mass, before.mass, 600 * 0x1p-53 * before.mass);
