@@ -1,96 +1,20 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "unit/simd_gravity_support.hpp"
+#include "unit/simd_quadrupole_support.hpp"
 
 // The kernels of nodes with second moments. What they share with those of points is tested with those.
 namespace slod::simd {
 namespace {
 
-constexpr std::size_t sum_count = 9; ///< three of the acceleration, six of the tide
-constexpr std::array<std::array<std::size_t, 3>, 3> entry = {{{3, 4, 5}, {4, 6, 7}, {5, 7, 8}}};
-
 using Vector = std::array<long double, 3>;
-
-/// Columns of targets or of nodes: x, y, z, q, and of nodes mass, the six moments and their trace.
-enum Column : std::size_t { X, Y, Z, Q, Mass, Xx, Xy, Xz, Yy, Yz, Zz, Trace, column_count };
-
-template <class Real>
-struct Rows {
-    std::array<std::vector<Real>, column_count> columns;
-
-    std::size_t count() const { return columns[X].size(); }
-    const Real* data(Column column) const { return columns[column].data(); }
-
-    void add(const std::array<double, column_count>& row)
-    {
-        for (std::size_t column = 0; column < column_count; ++column)
-            columns[column].push_back(Real(row[column]));
-    }
-
-    GravityNodes<Real> nodes() const
-    {
-        return {{count(), data(X), data(Y), data(Z), data(Mass), data(Q)},
-                data(Xx),
-                data(Xy),
-                data(Xz),
-                data(Yy),
-                data(Yz),
-                data(Zz),
-                data(Trace)};
-    }
-};
-
-struct PointMass {
-    std::array<double, 3> offset; ///< from the centre of mass
-    double mass;
-};
-
-/// The node that these are, with its centre of mass there.
-std::array<double, column_count> node_of(const std::vector<PointMass>& points,
-                                         const std::array<double, 3>& centre, double q)
-{
-    std::array<double, column_count> row{centre[0], centre[1], centre[2], q};
-    for (const PointMass& point : points)
-        row[Mass] += point.mass;
-    for (const PointMass& point : points) {
-        const double share = 3 * point.mass / row[Mass];
-        std::size_t moment = Xx;
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = i; j < 3; ++j)
-                row[moment++] += share * point.offset[i] * point.offset[j];
-    }
-    row[Trace] = 0.5 * (row[Xx] + row[Yy] + row[Zz]);
-    return row;
-}
-
-/// Three masses of 1/2 to 3/2 that reach `size` from their centre of mass, about.
-std::vector<PointMass> random_points(std::mt19937_64& bits, double size)
-{
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    std::vector<PointMass> points(3);
-    std::array<double, 3> centre{};
-    double mass = 0;
-    for (PointMass& point : points) {
-        point.mass = 1 + 0.5 * uniform(bits);
-        mass += point.mass;
-        for (std::size_t i = 0; i < 3; ++i) {
-            point.offset[i] = size * uniform(bits);
-            centre[i] += point.mass * point.offset[i];
-        }
-    }
-    for (PointMass& point : points)
-        for (std::size_t i = 0; i < 3; ++i)
-            point.offset[i] -= centre[i] / mass;
-    return points;
-}
 
 /// Within 1/4 of the origin; padded with targets at the origin.
 template <class Real>
@@ -122,30 +46,6 @@ Rows<Real> random_nodes(std::size_t count, std::uint64_t seed)
         nodes.add(node_of(points, {x, y, z}, i % 3 == 2 ? 0 : 0.01 * std::abs(uniform(bits))));
     }
     return nodes;
-}
-
-template <class Real>
-using NodeSums = std::array<std::vector<Real>, sum_count>;
-
-template <class Real>
-NodeSums<Real> evaluate_nodes(const KernelTable& table, const Rows<Real>& targets,
-                              const GravityNodes<Real>& nodes, bool tide = true)
-{
-    NodeSums<Real> sums;
-    for (std::vector<Real>& sum : sums)
-        sum.assign(targets.count(), 0);
-    GravityTargets<Real> pulled{targets.count(), targets.data(X), targets.data(Y), targets.data(Z),
-                                targets.data(Q), sums[0].data(),  sums[1].data(),  sums[2].data(),
-                                sums[3].data(),  sums[4].data(),  sums[5].data(),  sums[6].data(),
-                                sums[7].data(),  sums[8].data()};
-    const GravityKernels<Real>& kernels = gravity_kernels<Real>(table);
-    if (tide) {
-        kernels.add_nodes_acceleration_and_tide(pulled, nodes);
-    } else {
-        pulled.txx = pulled.txy = pulled.txz = pulled.tyy = pulled.tyz = pulled.tzz = nullptr;
-        kernels.add_nodes_acceleration(pulled, nodes);
-    }
-    return sums;
 }
 
 /// The definition, in long double: each component's sum, and the sum of its terms' magnitudes.
@@ -315,88 +215,6 @@ TEST(QuadrupoleKernelRange, NoPowerOfADistanceOverflows)
             EXPECT_LE(std::abs(scaled[c][0] / unit - expected.sum[c]),
                       (node_roundings(c) + 9) * 0x1p-24 * expected.magnitude[c])
                 << "length " << length << ", component " << c;
-        }
-    }
-}
-
-/// Of one node and one target at the origin, in double: what the node misses of its points, as the norms of
-/// acceleration and tide.
-std::array<double, 2> missed(const std::vector<PointMass>& points, const std::array<double, 3>& centre,
-                             double q, double scale)
-{
-    std::vector<PointMass> scaled = points;
-    for (PointMass& point : scaled)
-        for (double& coordinate : point.offset)
-            coordinate *= scale;
-    Rows<double> targets, node, parts;
-    while (targets.count() < tile_width)
-        targets.add({});
-    node.add(node_of(scaled, centre, q));
-    for (const PointMass& point : scaled)
-        parts.add({centre[0] + point.offset[0], centre[1] + point.offset[1], centre[2] + point.offset[2], q,
-                   point.mass});
-    const auto whole = evaluate_nodes(kernels(), targets, node.nodes());
-    const auto exact = evaluate_nodes(kernels(), targets, parts.nodes());
-    std::array<double, 2> squares{};
-    for (std::size_t c = 0; c < sum_count; ++c)
-        squares[c < 3 ? 0 : 1] += std::pow(whole[c][0] - exact[c][0], 2);
-    return {std::sqrt(squares[0]), std::sqrt(squares[1])};
-}
-
-// What is missing is of third order in the size: an eighth at half of it. The fourth order is smaller by
-// size / distance times 5/4 for the acceleration and 6/4 for the tide; times 4, for directions in which the
-// third is small. A wrong coefficient leaves second order, a quarter, and the tide's would not follow.
-TEST(QuadrupoleKernelOrder, OfANodesPartsOnlyTheThirdOrderIsMissing)
-{
-    constexpr double size = 0.01;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        std::mt19937_64 bits(seed);
-        const std::vector<PointMass> points = random_points(bits, size);
-        for (const double q : {0.0, 0.3}) {
-            const auto coarse = missed(points, {0.8, -0.5, 0.6}, q, 1);
-            const auto fine = missed(points, {0.8, -0.5, 0.6}, q, 0.5);
-            for (const std::size_t of : {0U, 1U})
-                EXPECT_NEAR(coarse[of] / fine[of], 8, 8 * 4 * 1.5 * size)
-                    << (of == 0 ? "acceleration" : "tide") << ", seed " << seed << ", q " << q;
-        }
-    }
-}
-
-/// How far central differences of the acceleration by one node over 2 `step` are from its tide, in norm.
-double slope_error(const Rows<double>& node, double step)
-{
-    Rows<double> targets;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const double side : {step, -step}) {
-            std::array<double, column_count> row{};
-            row[axis] = side;
-            targets.add(row);
-        }
-    }
-    while (targets.count() < tile_width)
-        targets.add({});
-    const auto sums = evaluate_nodes(kernels(), targets, node.nodes());
-    double squares = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t i = 0; i < 3; ++i)
-            squares += std::pow(
-                (sums[i][2 * axis] - sums[i][2 * axis + 1]) / (2 * step) - sums[entry[i][axis]].back(), 2);
-    return std::sqrt(squares);
-}
-
-// A central difference misses step^2 / 6 of the third derivative and step^4 / 120 of the fifth, which for a
-// pull that falls as d^-4 is 56 / d^2 of it: 2.8 step^2 of the error, times 20 for directions in which the
-// third is small. A tide that is not the derivative leaves a part that does not fall.
-TEST(QuadrupoleKernelTide, IsTheDerivativeOfTheAcceleration)
-{
-    constexpr double step = 0x1p-6;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        std::mt19937_64 bits(seed);
-        for (const double q : {0.0, 0.3}) {
-            Rows<double> node;
-            node.add(node_of(random_points(bits, 0.7), {0.8, -0.5, 0.6}, q));
-            EXPECT_NEAR(slope_error(node, step) / slope_error(node, step / 2), 4, 4 * 20 * 2.8 * step * step)
-                << "seed " << seed << ", q " << q;
         }
     }
 }
