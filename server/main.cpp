@@ -57,7 +57,7 @@ try {
     slod::Outputs outputs(line, job.origin); // before the run, which may be long
     slod::StatusDisplay status(logging);
     slod::Server server(job, line.free_run,
-                        {.each_second = [&](const auto&... how_it_goes) { status.update(how_it_goes...); },
+                        {.each_second = [&](const slod::RunStatus& now) { status.update(now); },
                          .each_frame = [&](const auto&... what_it_took) { outputs.trace(what_it_took...); },
                          .record = [&](const slod::LoggedCommand& command) { outputs.record(command); }});
     const slod::RunSummary summary = server.run(signals.token());

@@ -35,6 +35,8 @@ Connection::Connection(std::uint32_t domain, wire::Profile profile, const Subscr
         arrivals_.watch(stats_reader_.emplace(participant_));
     if (subscription.overview)
         arrivals_.watch(overview_reader_.emplace(participant_));
+    if (subscription.errors)
+        arrivals_.watch(errors_reader_.emplace(participant_));
     if (subscription.regions)
         arrivals_.watch(regions_reader_.emplace(participant_));
     if (subscription.clusters && subscription.region.empty())
@@ -52,6 +54,7 @@ void Connection::poll()
 {
     take_states();
     take_stats();
+    take_errors();
     take_regions();
     take_frames();
 }
@@ -97,6 +100,7 @@ void Connection::follow_session()
     session_ = server->session;
     stats_.reset();
     overview_.reset();
+    errors_.clear();
     assembler_.reset();
     clusters_meter_.reset();
 }
@@ -116,6 +120,24 @@ void Connection::take_stats()
                                          return;
                                      assign(stats_ ? *stats_ : stats_.emplace(), stats);
                                  });
+}
+
+void Connection::take_errors()
+{
+    if (errors_reader_)
+        errors_reader_->take_each(
+            samples_per_poll, [&](const wire::ErrorEstimate& error, const dds_sample_info_t& info) {
+                if (is_ours(error, info))
+                    assign(errors_[error.region], error);
+                if (info.instance_state != DDS_IST_ALIVE && session_ == wire::uuid_of(error.session))
+                    errors_.erase(error.region);
+            });
+}
+
+const MeasuredError* Connection::error() const
+{
+    const auto found = errors_.find("");
+    return found != errors_.end() ? &found->second : nullptr;
 }
 
 /// Of every session: which one is followed may be known later, or change.

@@ -21,6 +21,7 @@ struct Subscription {
     bool stats = false;
     bool clusters = false;
     bool overview = false;
+    bool errors = false;
     bool regions = false;
     std::string region{};                         ///< of the clusters; empty: all
     wire::Repair repair = wire::Repair::AskAgain; ///< of the clusters
@@ -48,7 +49,10 @@ public:
     /// Null before the first sample of the present session.
     const ServerStats* stats() const { return stats_ ? &*stats_ : nullptr; }
     const OverviewNodes* overview() const { return overview_ ? &*overview_ : nullptr; }
-    using Regions = std::map<std::string, RegionInfo>; ///< by name
+    using Errors = std::map<std::string, MeasuredError>; ///< by region; "": of all particles
+    const Errors& errors() const { return errors_; }     ///< empty: they are not measured, or not yet
+    const MeasuredError* error() const;                  ///< of all particles; null likewise
+    using Regions = std::map<std::string, RegionInfo>;   ///< by name
     const Regions& regions() const;
 
     /// Whether as many regions are known as the server last said it has.
@@ -65,6 +69,7 @@ public:
 private:
     void take_states();
     void take_stats();
+    void take_errors();
     void take_regions();
     void take_frames();
     void follow_session();
@@ -78,6 +83,7 @@ private:
     wire::Reader<wire::ServerState> state_reader_;
     std::optional<wire::Reader<wire::Stats>> stats_reader_;
     std::optional<wire::Reader<wire::Overview>> overview_reader_;
+    std::optional<wire::Reader<wire::ErrorEstimate>> errors_reader_;
     std::optional<wire::Reader<wire::RoiState>> regions_reader_;
     std::optional<wire::Reader<wire::Clusters>> clusters_reader_;
     std::optional<wire::Reader<wire::Clusters>> shared_clusters_reader_; ///< of regions without a partition
@@ -87,6 +93,7 @@ private:
     std::optional<wire::Uuid> session_; ///< of what is kept below
     std::optional<ServerStats> stats_;
     std::optional<OverviewNodes> overview_;
+    Errors errors_;
     std::map<wire::Uuid, Regions> regions_; ///< by session
     FrameAssembler assembler_;
     StreamMeter clusters_meter_;

@@ -57,6 +57,23 @@ void assign(ServerInfo& to, const wire::ServerState& from)
         to.topics.emplace_back(topic.name);
 }
 
+void assign(MeasuredError& to, const wire::ErrorEstimate& from)
+{
+    const auto quantile = [](const slod_v1_EstimatedQuantile& field) -> Quantile {
+        return {field.value, field.low, field.high};
+    };
+    to = {.frame = from.frame,
+          .oldest_frame = from.oldest_frame,
+          .newest_frame = from.newest_frame,
+          .samples = from.samples,
+          .median = quantile(from.median),
+          .p90 = quantile(from.p90),
+          .p99 = quantile(from.p99),
+          .max = from.max,
+          .rms = from.rms,
+          .target = from.target};
+}
+
 void assign(ServerStats& to, const wire::Stats& from)
 {
     to.frame = from.frame;

@@ -67,6 +67,21 @@ struct ServerStats {
     wire::PublisherCounts wire{};
 };
 
+/// As EstimatedQuantile in slod.idl.
+struct Quantile {
+    double value = 0, low = 0, high = 0;
+};
+
+/// Errors of accelerations, relative, of members that were drawn in some of the last frames.
+struct MeasuredError {
+    std::uint64_t frame = 0;
+    std::uint64_t oldest_frame = 0, newest_frame = 0;
+    std::uint64_t samples = 0;
+    Quantile median, p90, p99;
+    double max = 0, rms = 0;
+    double target = 0; ///< median that is held; 0: none
+};
+
 /// A region of interest as it is.
 struct RegionInfo {
     std::string region;
@@ -120,6 +135,7 @@ struct OverviewNodes {
 /// Copies of a message; the sequences re-use the memory of the target.
 void assign(ServerInfo& to, const wire::ServerState& from);
 void assign(ServerStats& to, const wire::Stats& from);
+void assign(MeasuredError& to, const wire::ErrorEstimate& from);
 void assign(RegionInfo& to, const wire::RoiState& from);
 void assign(RegionClusters& to, const wire::Clusters& from);
 void assign(OverviewNodes& to, const wire::Overview& from);

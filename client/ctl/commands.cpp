@@ -65,6 +65,8 @@ constexpr std::array all_commands{
                  declare_watch, run_watch},
     CommandEntry{"stats", "Print the statistics of one frame: times by phase, counts, conserved quantities.",
                  declare_stats, run_stats},
+    CommandEntry{"error", "Print the error of accelerations, measured while the scene runs, by region.",
+                 declare_nothing, run_error},
     CommandEntry{"hz", "Measure how often samples of a topic arrive, and how many are lost.", declare_traffic,
                  run_traffic},
     CommandEntry{"bw", "Measure the bytes of a topic's samples.", declare_traffic, run_traffic},
@@ -77,6 +79,7 @@ constexpr std::array all_commands{
     CommandEntry{"resume", "Let a paused scene go on.", declare_simple, run_steering},
     CommandEntry{"step", "Run some frames while paused.", declare_step, run_steering},
     CommandEntry{"set", "Change settings of the running scene.", declare_set, run_steering},
+    CommandEntry{"target", "Hold a frame rate, an error, or both.", declare_target, run_steering},
     CommandEntry{"stop", "End the server in order.", declare_simple, run_steering},
 };
 

@@ -30,6 +30,9 @@ ExitCode run_roi(const CommandLine& line, const std::stop_token& stop);
 /// Sends the request and waits for its answer, which it prints.
 ExitCode run_steering(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
+
+/// Prints the error of accelerations, of all particles and by region.
+ExitCode run_error(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_echo(const CommandLine& line, const std::stop_token& stop);
 
 /// hz, bw and latency of a topic, once a second.

@@ -99,6 +99,29 @@ CLI::App* change_action(CLI::App& app, CommandLine& line, const std::string& nam
     return sub;
 }
 
+/// The settings of the server that hold what "fps 30", "error 0.01", both in either order, or "off" ask for.
+std::vector<std::pair<std::string, std::string>> target_settings(const std::vector<std::string>& words)
+{
+    if (words.size() == 1 && words.front() == "off")
+        return {{"control.mode", "off"}};
+    std::vector<std::pair<std::string, std::string>> settings;
+    const auto sets = [&](std::string_view key) {
+        return std::any_of(settings.begin(), settings.end(),
+                           [key](const auto& setting) { return setting.first == key; });
+    };
+    for (std::size_t word = 0; word < words.size(); word += 2) {
+        const bool rate = words[word] == "fps";
+        const std::string key = rate ? "server.frame_rate" : "control.target_error";
+        if ((!rate && words[word] != "error") || word + 1 == words.size() || sets(key))
+            throw CLI::ValidationError("TARGET", "write fps N, error E, both, or off");
+        settings.emplace_back(key, words[word + 1]);
+    }
+    const bool error_first = words.front() == "error";
+    settings.emplace_back("control.priority", error_first ? "error" : "frame_rate");
+    settings.emplace_back("control.mode", sets("control.target_error") ? "error" : "smooth");
+    return settings;
+}
+
 /// Whether a setting is given whose key starts so.
 bool sets(const CommandRequest& request, std::string_view start)
 {
@@ -161,9 +184,23 @@ void declare_set(CLI::App& app, CommandLine& line)
     add_settings(
         app, "SETTING", line.request,
         "table.key=value as in a scene file, of what may change while it runs: gravity, uniform_gravity, "
-        "uniform_wind, background, control, server.frame_rate")
+        "uniform_wind, background, control, meter, server.frame_rate")
         ->required();
     declare_simple(app, line);
+}
+
+void declare_target(CLI::App& app, CommandLine& line)
+{
+    const auto take = [&line](const std::vector<std::string>& words) {
+        line.request.settings = target_settings(words);
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "TARGET", take,
+           "fps N: hold N frames a second; error E: hold a median error of accelerations of E (0.01 is 1 %), "
+           "whatever a frame takes; both: where they cannot both be had the first one is; or off")
+        ->required()
+        ->expected(1, 4);
+    app.parse_complete_callback([&line] { line.request.kind = "set"; });
 }
 
 void declare_roi(CLI::App& app, CommandLine& line)

@@ -130,17 +130,11 @@ Json json_of(const wire::EffectStats& message)
 
 Json json_of(const wire::ErrorEstimate& message)
 {
-    return {{"session", uuid(message.session)},
-            {"serial", message.serial},
-            {"frame", message.frame},
-            {"time", message.time},
-            {"sampled_particles", message.sampled_particles},
-            {"force_error_median", message.force_error_median},
-            {"force_error_p90", message.force_error_p90},
-            {"force_error_p99", message.force_error_p99},
-            {"force_error_max", message.force_error_max},
-            {"force_error_rms", message.force_error_rms},
-            {"target", message.target}};
+    client::MeasuredError error;
+    assign(error, message);
+    Json json = {{"session", uuid(message.session)}, {"region", message.region}, {"serial", message.serial}};
+    json.update(json_of(error));
+    return json;
 }
 
 Json json_of(const wire::Alarm& message)

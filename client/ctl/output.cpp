@@ -147,6 +147,23 @@ Json json_of(const client::ServerStats& stats)
     return json;
 }
 
+Json json_of(const client::MeasuredError& error)
+{
+    const auto quantile = [](const client::Quantile& of) -> Json {
+        return {{"value", of.value}, {"low", of.low}, {"high", of.high}};
+    };
+    return {{"frame", error.frame},
+            {"oldest_frame", error.oldest_frame},
+            {"newest_frame", error.newest_frame},
+            {"samples", error.samples},
+            {"median", quantile(error.median)},
+            {"p90", quantile(error.p90)},
+            {"p99", quantile(error.p99)},
+            {"max", error.max},
+            {"rms", error.rms},
+            {"target", error.target}};
+}
+
 Json json_of(const client::StreamMeter::Report& traffic)
 {
     return {{"received", traffic.received},

@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json; ///< keeps the order below, which is the or
 Json json_of(const client::Status& status);
 Json json_of(const client::ServerInfo& server);
 Json json_of(const client::ServerStats& stats);
+Json json_of(const client::MeasuredError& error);
 Json json_of(const client::RegionInfo& region);
 Json json_of(const client::StreamMeter::Report& traffic);
 

@@ -28,6 +28,11 @@ Json update_of(const client::Connection& connection, bool with_clusters)
         update["work_ms"] = stats->work_ms;
         update["clusters"] = stats->clusters;
     }
+    if (const client::MeasuredError* error = connection.error())
+        update["error"] = {{"median", error->median.value},
+                           {"low", error->median.low},
+                           {"high", error->median.high},
+                           {"p99", error->p99.value}};
     if (with_clusters) {
         update["complete_frames"] = connection.complete_frames();
         update["receive"] = json_of(connection.clusters_traffic());
@@ -81,6 +86,7 @@ ExitCode run_watch(const CommandLine& line, const std::stop_token& stop)
 {
     const client::Subscription subscription{.stats = true,
                                             .clusters = line.clusters,
+                                            .errors = true,
                                             .repair = line.best_effort ? wire::Repair::GoOn
                                                                        : wire::Repair::AskAgain};
     client::Connection connection(line.server.domain, line.server.profile, subscription);

@@ -2,7 +2,7 @@
 
 namespace slod::view {
 
-void History::add(const client::ServerStats& stats)
+void History::add(const client::ServerStats& stats, const client::MeasuredError* error)
 {
     if (stats.frame == last_frame_)
         return;
@@ -10,6 +10,8 @@ void History::add(const client::ServerStats& stats)
     append("frame_rate_hz", stats.frame_rate_hz);
     append("work_ms", stats.work_ms);
     append("real_time_factor", stats.real_time_factor);
+    if (error)
+        append("error_percent", 100 * error->median.value);
     phases_.clear();
     for (const auto& [phase, ms] : stats.phases_ms) {
         append(phase, ms);

@@ -15,11 +15,11 @@ class History {
 public:
     static constexpr std::size_t length = 240; ///< samples kept
 
-    /// Takes in a sample, once.
-    void add(const client::ServerStats& stats);
+    /// Takes in a sample, once, and the error of accelerations then; null: it is not known.
+    void add(const client::ServerStats& stats, const client::MeasuredError* error = nullptr);
 
-    /// Oldest first: "frame_rate_hz", "work_ms", "real_time_factor", and each phase's milliseconds by its
-    /// name.
+    /// Oldest first: "frame_rate_hz", "work_ms", "real_time_factor", "error_percent", the median, once it is
+    /// known, and each phase's milliseconds by its name.
     const std::map<std::string, std::vector<float>>& series() const { return series_; }
 
     /// Names of the phases, in the frame's order.

@@ -22,7 +22,7 @@ std::array<double, 3> array_of(const view::Vector& from)
 
 Model::Model(const CommandLine& line)
     : connection(line.server.domain, line.server.profile,
-                 {.stats = true, .clusters = true, .regions = true, .region = line.region}),
+                 {.stats = true, .clusters = true, .errors = true, .regions = true, .region = line.region}),
       alarms(connection.participant()),
       steering(connection.participant(), viewer_name(line)), look{.camera =
                                                                       line.camera.value_or(view::Camera{}),
@@ -44,7 +44,7 @@ bool Model::exchange()
     else if (steering.set_server(connection.server()->session))
         history.reset();
     if (connection.stats())
-        history.add(*connection.stats());
+        history.add(*connection.stats(), connection.error());
     steering.editor.on_regions(connection.regions());
     if (connection.frame() && connection.frame()->nodes() > 0 && std::exchange(fit_wanted_, false))
         fit_camera();

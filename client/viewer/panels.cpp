@@ -41,6 +41,14 @@ void draw_traffic(const Model& model)
     ImGui::Text("missed    %llu samples", static_cast<unsigned long long>(traffic.lost));
 }
 
+void draw_error(const client::MeasuredError& error)
+{
+    ImGui::Text("error     %.2g %% (%.2g to %.2g), p99 %.2g %%", 100 * error.median.value,
+                100 * error.median.low, 100 * error.median.high, 100 * error.p99.value);
+    if (error.target > 0)
+        ImGui::Text("target    %.3g %%", 100 * error.target);
+}
+
 void plot(const view::History& history, const char* label, const std::string& series, const char* unit)
 {
     const auto found = history.series().find(series);
@@ -143,9 +151,12 @@ void draw_performance_panel(const Model& model)
                 ImGui::Text("sizes     times %.3g, %s", stats->control.cluster_size,
                             stats->control.state.c_str());
         }
+        if (const client::MeasuredError* error = model.connection.error())
+            draw_error(*error);
         plot(model.history, "frame rate", "frame_rate_hz", "Hz");
         plot(model.history, "real time factor", "real_time_factor", "");
         plot(model.history, "work", "work_ms", "ms");
+        plot(model.history, "error", "error_percent", "%");
         if (ImGui::CollapsingHeader("milliseconds by phase"))
             plot_phases(model.history);
         ImGui::Text("viewer    %.1f pictures/s", double(ImGui::GetIO().Framerate));

@@ -58,7 +58,9 @@ bool says_where(const Request& request)
 
 bool of_loop(const Assignment& assignment)
 {
-    return assignment.key.starts_with("server.") || assignment.key.starts_with("control.");
+    constexpr std::array tables{"server.", "control.", "meter."};
+    return std::any_of(tables.begin(), tables.end(),
+                       [&](const char* table) { return assignment.key.starts_with(table); });
 }
 
 /// What a region looks like to a view.
@@ -209,8 +211,8 @@ Answer CommandDesk::set_loop(const Request& request)
                            " in a command of its own.");
     LoopSettings wanted = loop_;
     Problems found = assign_fields(wanted, request.settings);
-    for (const std::string& problem : problems(wanted.control))
-        found.push_back("control." + problem);
+    for (const std::string& problem : problems(wanted))
+        found.push_back(problem);
     if (wanted.server.threads != loop_.server.threads || wanted.server.isa != loop_.server.isa)
         found.push_back("server has nothing but frame_rate that can change while the scene runs; start the "
                         "server with the others.");

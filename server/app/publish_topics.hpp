@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 
+#include "app/publish_errors.hpp"
 #include "app/publish_outlet.hpp"
 #include "app/publish_picture.hpp"
 #include "app/publish_rate.hpp"
@@ -28,6 +29,7 @@ public:
     /// Whether anybody reads them. Any thread may ask; for clusters the answer is as old as the last look.
     bool clusters_read() const { return clusters_read_; }
     bool overview_read() const { return overview_writer_.matched(); }
+    bool errors_read() const { return errors_.read(); }
 
     /// Looks whether anybody reads clusters.
     void look_for_readers() { clusters_read_ = regions_.clusters_read(); }
@@ -74,6 +76,7 @@ private:
     RateLimit stats_rate_;
     StatsEncoder stats_encoder_;
     wire::Writer<wire::Stats> stats_writer_;
+    PublishedErrors errors_;
     StateEncoder state_encoder_;
     wire::Writer<wire::ServerState> state_writer_;
 

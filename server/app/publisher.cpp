@@ -104,6 +104,11 @@ bool Publisher::clusters_wanted() const
     return impl_->due(Clock::now()).any();
 }
 
+bool Publisher::errors_wanted() const
+{
+    return impl_->topics.errors_read();
+}
+
 void Publisher::offer(const Snapshot& snapshot, const LoopStats& loop)
 {
     const Clock::time_point now = Clock::now();

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/requests.hpp"
 #include "control/controller.hpp"
+#include "meter/error_window.hpp"
 #include "scene/server_settings.hpp"
 #include "sim/settings.hpp"
 #include "sim/snapshot.hpp"
@@ -17,13 +19,21 @@ class Participant;
 
 namespace slod {
 
+/// What is known of the errors of accelerations.
+struct ErrorReport {
+    ErrorEstimate all;                            ///< of any particle
+    std::map<std::string, ErrorEstimate> regions; ///< of the particles of each, by name
+    double target = 0;                            ///< median that is held for all; 0: none
+};
+
 /// How the server's loop goes, as means over about the last second.
 struct LoopStats {
     double frame_rate_hz;
-    double work_ms;                  ///< of a frame, without the wait for the next
-    double real_time_factor;         ///< scene time, in SI seconds, per second of wall time
-    double frame_rate_target_hz = 0; ///< that the loop paces itself to; 0: as fast as it goes
-    ControlReport regulation{};      ///< at the frame's start
+    double work_ms;                              ///< of a frame, without the wait for the next
+    double real_time_factor;                     ///< scene time, in SI seconds, per second of wall time
+    double frame_rate_target_hz = 0;             ///< that the loop paces itself to; 0: as fast as it goes
+    ControlReport regulation{};                  ///< at the frame's start
+    std::shared_ptr<const ErrorReport> errors{}; ///< the newest; null: they are not measured
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop
@@ -62,6 +72,9 @@ public:
     /// Whether the next snapshot should have clusters: somebody reads them or the overview, and by the rates
     /// in the settings a frame is due.
     bool clusters_wanted() const;
+
+    /// Whether somebody reads errors.
+    bool errors_wanted() const;
 
     /// Copies the frame into a slot that holds the newest one, and returns.
     void offer(const Snapshot& snapshot, const LoopStats& loop);

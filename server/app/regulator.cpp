@@ -36,25 +36,31 @@ void Regulator::set(const LoopSettings& settings, const SceneEditor& editor, con
     settings_ = settings.control;
     revision_ = editor.revision();
     const ControlScope scope = scope_of(editor, simulation);
-    const bool turnable = !simulation.plan().unclustered && scope.most_size > 0;
+    ControlSettings asked = settings_;
+    if (asked.mode == ControlMode::Error && !simulation.plan().has(Phase::Meter))
+        asked.mode = ControlMode::Smooth; // there is no error to hold
+    const bool has_target = paced_ || asked.mode == ControlMode::Error;
+    const bool turnable = has_target && !simulation.plan().unclustered && scope.most_size > 0;
     if (!turnable)
         controller_.reset();
     else if (other_settings || !controller_)
-        controller_ = make_controller(settings_, scope, simulation.detail());
+        controller_ = make_controller(asked, scope, simulation.detail());
     else if (scope != scope_) // not whenever a region moves
         controller_->set_scope(scope);
     scope_ = scope;
 }
 
-void Regulator::add(const Snapshot& snapshot, double work_ms)
+void Regulator::add(const Snapshot& snapshot, double work_ms, std::span<const ErrorSample> errors)
 {
     if (!controller_)
         return;
     decided_ = controller_->next({.work_ms = work_ms,
-                                  .target_ms = report().target_ms,
+                                  .target_ms = paced_ ? report().target_ms : INFINITY,
                                   .particles = snapshot.counts.particles,
                                   .clusters = snapshot.counts.clusters,
-                                  .growth = double(snapshot.counts.born) - double(snapshot.counts.died)});
+                                  .growth = double(snapshot.counts.born) - double(snapshot.counts.died),
+                                  .frame = snapshot.frame,
+                                  .errors = errors});
 }
 
 void Regulator::apply(SceneEditor& editor, std::uint64_t frame)
@@ -72,7 +78,8 @@ ControlReport Regulator::report() const
         return {.mode = settings_.mode};
     return {.mode = settings_.mode,
             .state = controller_->state(),
-            .target_ms = 1000 * settings_.work_share / frame_rate_hz_,
+            .target_ms = paced_ ? 1000 * settings_.work_share / frame_rate_hz_ : 0,
+            .target_error = settings_.mode == ControlMode::Error ? settings_.target_error : 0,
             .decisions = decisions_};
 }
 

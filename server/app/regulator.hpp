@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "app/scene_editor.hpp"
 #include "control/controller.hpp"
@@ -12,17 +13,20 @@
 
 namespace slod {
 
-/// Holds the frame rate: tells a controller how long frames work, and has done what it decides. Belongs to
-/// the simulation's thread.
+/// Holds the frame rate and the error: tells a controller how long frames work, and has done what it decides.
+/// Belongs to the simulation's thread.
 class Regulator {
 public:
+    /// `paced`: there is a frame rate to hold.
+    explicit Regulator(bool paced) : paced_(paced) {}
+
     /// Takes up other settings and other regions, where they are. Another controller goes on from the detail
     /// that the last one left; without one the scene has its own again. Where nothing can be turned, as in a
     /// scene planned without clusters, there is none.
     void set(const LoopSettings& settings, const SceneEditor& editor, const Simulation& simulation);
 
-    /// Takes in a frame that worked for so long.
-    void add(const Snapshot& snapshot, double work_ms);
+    /// Takes in a frame that worked for so long, and errors that came to be known in it.
+    void add(const Snapshot& snapshot, double work_ms, std::span<const ErrorSample> errors);
 
     /// Gives the simulation the detail that is decided on for `frame`, the next to run.
     void apply(SceneEditor& editor, std::uint64_t frame);
@@ -30,6 +34,7 @@ public:
     ControlReport report() const;
 
 private:
+    bool paced_;
     ControlSettings settings_{.mode = ControlMode::Off};
     double frame_rate_hz_ = 0;
     std::uint64_t revision_ = 0; ///< of the regions that the scope is of

@@ -57,6 +57,26 @@ Json counts_json(const FrameCounts& events)
     return counts;
 }
 
+Json quantile_json(const ErrorQuantile& quantile)
+{
+    return {{"value", quantile.value}, {"low", quantile.low}, {"high", quantile.high}};
+}
+
+/// Null where nothing is known of it.
+Json error_json(const ErrorEstimate& error)
+{
+    if (error.samples == 0)
+        return nullptr;
+    return {{"samples", error.samples},
+            {"oldest_frame", error.oldest_frame},
+            {"newest_frame", error.newest_frame},
+            {"median", quantile_json(error.median)},
+            {"p90", quantile_json(error.p90)},
+            {"p99", quantile_json(error.p99)},
+            {"max", error.max},
+            {"rms", error.rms}};
+}
+
 } // namespace
 
 std::string report(const ReportedRun& run)
@@ -81,6 +101,7 @@ std::string report(const ReportedRun& run)
         {"conserved",
          {{"start", conserved_json(summary.conserved_start)},
           {"end", conserved_json(summary.conserved_end)}}},
+        {"error", error_json(summary.error)},
         {"unanswered_force", vector_json(summary.unanswered_force)},
         {"drained", losses_json(summary.drained)},
         {"killed", losses_json(summary.killed)},

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "idl/duration_histogram.hpp"
+#include "meter/error_window.hpp"
 #include "sim/phase.hpp"
 #include "sim/snapshot.hpp"
 
@@ -22,6 +23,7 @@ struct RunSummary {
     Losses drained, killed;             ///< by sinks and by colliders, over the run
     ConservedQuantities conserved_start;
     ConservedQuantities conserved_end;
+    ErrorEstimate error;        ///< of accelerations, at the end
     DurationHistogram frame_ms; ///< a frame's work, without the pacer's wait
     std::array<DurationHistogram, phase_count> phase_ms;
 

@@ -27,7 +27,7 @@ bool are_of_background(const std::vector<Assignment>& settings)
 Problems unchangeable(const std::vector<Assignment>& settings)
 {
     // Of [server] its frame_rate alone, which its own reader says.
-    const std::vector<std::string> tables{"background", "control",         "gravity",
+    const std::vector<std::string> tables{"background", "control",         "gravity",     "meter",
                                           "server",     "uniform_gravity", "uniform_wind"};
     Problems found;
     for (const Assignment& assignment : settings) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <string>
 #include <thread>
 #include <utility>
@@ -59,7 +60,7 @@ Server::Server(Job& job, bool free_run, Listeners listeners)
                                         .loop = scene.loop,
                                         .replay = job.commands,
                                         .replaying = job.expected.has_value(),
-                                        .regulating = !free_run_,
+                                        .paced = !free_run_,
                                         .record = std::move(listeners.record)});
 }
 
@@ -87,6 +88,7 @@ RunSummary Server::run(const std::stop_token& stop)
     summary.wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
     summary.conserved_end = measure_conserved();
     summary.state_hash = simulation_->state_hash();
+    summary.error = simulation_->error();
     spdlog::info("stopped frames={} time={:.6g} wall_s={:.3f} interrupted={}", summary.frames, summary.time,
                  summary.wall_s, stop.stop_requested());
     return summary;
@@ -123,7 +125,12 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
 {
     const Clock::time_point begin = Clock::now();
     const bool wanted = publisher_ && publisher_->clusters_wanted();
-    const Simulation::Request request{.clusters = wanted, .conserved = wanted || (publisher_ && new_second_)};
+    const MeterSettings metering = steering_->loop().meter;
+    const Simulation::Request request{.clusters = wanted,
+                                      .conserved = wanted || (publisher_ && new_second_),
+                                      .error_pairs = meter_budget_.pairs(metering)};
+    if (!metering.enabled)
+        simulation_->forget_errors();
     const Snapshot* snapshot = nullptr;
     team_.run([&] { snapshot = &simulation_->step(request); });
     if (publisher_) {
@@ -133,20 +140,41 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
                            .work_ms = means.work_ms,
                            .real_time_factor = means.real_time_factor,
                            .frame_rate_target_hz = free_run_ ? 0 : steering_->loop().server.frame_rate,
-                           .regulation = steering_->regulation()});
+                           .regulation = steering_->regulation(),
+                           .errors = errors_});
     }
     const Clock::time_point end = Clock::now();
     const FrameTime took{.wall_s = std::chrono::duration<double>(end - start_).count(),
                          .step_ms = milliseconds(end - begin),
                          .encode_ms = encoding_ms()};
-    steering_->add_work(*snapshot, took.step_ms + took.encode_ms);
+    steering_->add_work(*snapshot, took.step_ms + took.encode_ms, simulation_->take_error_samples());
+    const double period_ms = free_run_ ? 0 : 1000 / steering_->loop().server.frame_rate;
+    meter_budget_.add(metering, std::max(took.step_ms, period_ms), snapshot->profile[Phase::Meter],
+                      snapshot->counts.error_pairs);
     summary.add(*snapshot, took.step_ms);
     new_second_ = meter.add(end, took.step_ms, snapshot->profile);
     const ControlReport regulation = steering_->regulation();
     if (each_frame_)
         each_frame_(*snapshot, took, regulation);
-    if (new_second_)
-        each_second_(*snapshot, meter.means(), simulation_->plan(), regulation);
+    if (new_second_) {
+        report_errors(metering, regulation);
+        each_second_({*snapshot, meter.means(), simulation_->plan(), regulation, simulation_->error()});
+    }
+}
+
+void Server::report_errors(const MeterSettings& metering, const ControlReport& regulation)
+{
+    errors_.reset();
+    if (!metering.enabled || !publisher_ || !publisher_->errors_wanted())
+        return;
+    ErrorReport report{.all = simulation_->error(), .regions = {}, .target = regulation.target_error};
+    std::map<RegionRow, std::string> names;
+    for (const Simulation::Region& region : simulation_->regions())
+        names[region.row] = region.settings.name;
+    for (const RegionError& measured : simulation_->region_errors())
+        if (const auto name = names.find(measured.row); name != names.end())
+            report.regions[name->second] = measured.error;
+    errors_ = std::make_shared<ErrorReport>(std::move(report));
 }
 
 double Server::encoding_ms()

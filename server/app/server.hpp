@@ -2,13 +2,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 
 #include "app/job.hpp"
 #include "app/loop_meter.hpp"
+#include "app/meter_budget.hpp"
 #include "app/publisher.hpp"
 #include "app/run_summary.hpp"
+#include "app/status.hpp"
 #include "app/steering.hpp"
 #include "app/trace.hpp"
 #include "core/parallel.hpp"
@@ -22,8 +25,7 @@ namespace slod {
 class Server {
 public:
     /// Told once a second, between frames, how the run goes.
-    using EachSecond =
-        std::function<void(const Snapshot&, const LoopMeans&, const Plan&, const ControlReport&)>;
+    using EachSecond = std::function<void(const RunStatus&)>;
 
     /// Told after each frame what it took.
     using EachFrame = std::function<void(const Snapshot&, const FrameTime&, const ControlReport&)>;
@@ -57,6 +59,9 @@ private:
     /// One frame and its publication; adds it to `summary`.
     void run_frame(LoopMeter& meter, RunSummary& summary);
 
+    /// Has the errors that are known now published.
+    void report_errors(const MeterSettings& metering, const ControlReport& regulation);
+
     /// What the publisher spent on a frame since the last call, if it encoded one.
     double encoding_ms();
 
@@ -72,9 +77,11 @@ private:
     std::optional<Simulation> simulation_;
     std::optional<Publisher> publisher_;
     std::optional<Steering> steering_;
-    Pacer::Clock::time_point start_{}; ///< of the run
-    std::uint64_t frames_encoded_ = 0; ///< by the publisher, when that was last asked
-    bool new_second_ = true;           ///< the next frame is the first of a second
+    MeterBudget meter_budget_;
+    std::shared_ptr<const ErrorReport> errors_; ///< to be published
+    Pacer::Clock::time_point start_{};          ///< of the run
+    std::uint64_t frames_encoded_ = 0;          ///< by the publisher, when that was last asked
+    bool new_second_ = true;                    ///< the next frame is the first of a second
 };
 
 } // namespace slod

@@ -60,37 +60,47 @@ std::string size_text(const Snapshot& snapshot, const ControlReport& regulation)
                        names(regulation.state)[std::size_t(regulation.state)]);
 }
 
+/// Median and the interval it is in: "  error 0.31 % (0.28 to 0.35)".
+std::string error_text(const ErrorEstimate& error)
+{
+    if (error.samples == 0)
+        return {};
+    return fmt::format("  error {:.2g} % ({:.2g} to {:.2g})", 100 * error.median.value,
+                       100 * error.median.low, 100 * error.median.high);
+}
+
 } // namespace
 
-std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                        const ControlReport& regulation)
+std::string status_line(const RunStatus& status)
 {
-    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}  {:.1f} ms:{}",
+    const auto& [snapshot, means, plan, regulation, error] = status;
+    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}{}  {:.1f} ms:{}",
                        snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
                        grouped(snapshot.counts.particles), grouped(snapshot.counts.clusters),
-                       size_text(snapshot, regulation), means.work_ms, longest_phases(means.profile, plan));
+                       size_text(snapshot, regulation), error_text(error), means.work_ms,
+                       longest_phases(means.profile, plan));
 }
 
-std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                          const ControlReport& regulation)
+std::string status_record(const RunStatus& status)
 {
+    const auto& [snapshot, means, plan, regulation, error] = status;
     return fmt::format(
         "status frame={} time={:.6g} frame_rate_hz={:.1f} real_time_factor={:.4g} particles={} "
-        "clusters={} max_cluster_size={:.4g} control={} work_ms={:.2f}{}",
+        "clusters={} max_cluster_size={:.4g} control={} error_median={:.3g} error_p99={:.3g} "
+        "error_samples={} work_ms={:.2f}{}",
         snapshot.frame, snapshot.time, means.frame_rate_hz, means.real_time_factor, snapshot.counts.particles,
         snapshot.counts.clusters, snapshot.regions.back().max_cluster_size,
-        names(regulation.state)[std::size_t(regulation.state)], means.work_ms,
-        phase_records(means.profile, plan));
+        names(regulation.state)[std::size_t(regulation.state)], error.median.value, error.p99.value,
+        error.samples, means.work_ms, phase_records(means.profile, plan));
 }
 
-void StatusDisplay::update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                           const ControlReport& regulation)
+void StatusDisplay::update(const RunStatus& status)
 {
     ++seconds_;
     if (logging_.on_terminal())
-        logging_.show_status(status_line(snapshot, means, plan, regulation));
+        logging_.show_status(status_line(status));
     else if (seconds_ % seconds_between_log_lines == 0)
-        spdlog::info(status_record(snapshot, means, plan, regulation));
+        spdlog::info(status_record(status));
 }
 
 } // namespace slod

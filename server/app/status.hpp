@@ -5,18 +5,27 @@
 #include "app/log.hpp"
 #include "app/loop_meter.hpp"
 #include "control/controller.hpp"
+#include "meter/error_window.hpp"
 #include "sim/plan.hpp"
 #include "sim/snapshot.hpp"
 
 namespace slod {
 
-/// One line for people: frame, rates, sizes and the milliseconds of the longest phases, longest first.
-std::string status_line(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                        const ControlReport& regulation);
+/// How a run goes, at the end of a second.
+struct RunStatus {
+    const Snapshot& snapshot;
+    const LoopMeans& means;
+    const Plan& plan;
+    ControlReport regulation{};
+    ErrorEstimate error{}; ///< of accelerations
+};
+
+/// One line for people: frame, rates, sizes, the error with its interval, and the milliseconds of the longest
+/// phases, longest first.
+std::string status_line(const RunStatus& status);
 
 /// The same as key=value, for a log.
-std::string status_record(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                          const ControlReport& regulation);
+std::string status_record(const RunStatus& status);
 
 /// Shows how the run goes: on a terminal every second in place, elsewhere a log line every few seconds.
 class StatusDisplay {
@@ -25,8 +34,7 @@ public:
     explicit StatusDisplay(Logging& logging) : logging_(logging) {}
 
     /// To be called once a second.
-    void update(const Snapshot& snapshot, const LoopMeans& means, const Plan& plan,
-                const ControlReport& regulation);
+    void update(const RunStatus& status);
 
 private:
     Logging& logging_;

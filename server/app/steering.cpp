@@ -9,11 +9,12 @@
 namespace slod {
 
 Steering::Steering(Simulation& simulation, Publisher* publisher, Options options)
-    : simulation_(simulation), regulating_(options.regulating && !options.replaying), publisher_(publisher),
+    : simulation_(simulation), regulating_(!options.replaying), publisher_(publisher),
       max_commands_(options.wire.max_commands), replay_(std::move(options.replay)),
       record_(std::move(options.record)), desk_(simulation, {.max_clients = options.wire.max_commanders,
                                                              .read_only = options.replaying,
-                                                             .loop = options.loop})
+                                                             .loop = options.loop}),
+      regulator_(options.paced)
 {
     if (publisher && options.wire.commands)
         inbox_.emplace(publisher->participant(), publisher->session());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/command_desk.hpp"
@@ -27,8 +28,8 @@ public:
         LoopSettings loop{};               ///< at the start
         std::vector<LoggedCommand> replay; ///< of a log, by frame
         bool replaying = false;            ///< clients may change nothing
-        bool regulating = true; ///< a controller may hold the frame rate, if the scene asks for one
-        Record record;          ///< may be empty
+        bool paced = true;                 ///< there is a frame rate, which a controller may hold
+        Record record;                     ///< may be empty
     };
 
     /// `publisher` may be null: nobody commands. Both must outlive the steering. Throws wire::DdsError.
@@ -41,8 +42,12 @@ public:
     /// and however long the loop pauses, a view makes one change.
     void follow_views(std::uint64_t frame, ThreadTeam& team);
 
-    /// Tells the controller, if there is one, of a frame that worked for so long.
-    void add_work(const Snapshot& snapshot, double work_ms) { regulator_.add(snapshot, work_ms); }
+    /// Tells the controller, if there is one, of a frame that worked for so long and of errors measured in
+    /// it.
+    void add_work(const Snapshot& snapshot, double work_ms, std::span<const ErrorSample> errors)
+    {
+        regulator_.add(snapshot, work_ms, errors);
+    }
 
     /// Sets the detail that the controller decided on, right before `frame` runs.
     void regulate(std::uint64_t frame, ThreadTeam& team);

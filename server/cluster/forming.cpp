@@ -84,11 +84,6 @@ MapBlocks::Offset means(const ClusterTable& clusters, std::size_t slot)
     return {moments.mean_offset(), moments.mean_velocity()};
 }
 
-MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offset& mean)
-{
-    return {offset.position.cast<double>() - mean.position, offset.velocity.cast<double>() - mean.velocity};
-}
-
 /// Adds to the centre what moves the members' mean, so that no member moves: it is at X + M (o - mean).
 void follow_mean(ClusterTable& clusters, std::size_t slot, const MapBlocks& map,
                  const MapBlocks::Offset& before)
@@ -231,6 +226,14 @@ void map_out(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame
         ++particle;
     }
     SLOD_ASSERT(particle == out.end());
+}
+
+ClusterPicture picture_of(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame)
+{
+    const ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    return {clusters.slab[slot], clusters.stored[slot], clusters.position[slot],
+            clusters.blocks(slot, store.rule, frame), means(clusters, slot)};
 }
 
 ClusterPast past_of(const ClusterTable& clusters, std::size_t slot)

@@ -36,6 +36,50 @@ void form_cluster(ClusterStore& store, ClusterSlot slot, std::span<Particle> par
 /// them. Order as stored.
 void map_out(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, std::span<Particle> out);
 
+/// All that a cluster's members' places follow from besides their rows, which stay as long as their slab is
+/// not recycled, whatever becomes of the cluster.
+struct ClusterPicture {
+    Slab slab;
+    std::uint32_t stored = 0;
+    Vector3d position{0, 0, 0};
+    MapBlocks map;
+    MapBlocks::Offset mean; ///< what the map is applied about
+};
+
+ClusterPicture picture_of(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
+
+/// A member as others feel it.
+struct MemberPlace {
+    Vector3d place;
+    double mass;
+    std::uint8_t kind;
+};
+
+/// A member's place and velocity when its cluster was formed, relative to the members' mean.
+inline MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offset& mean)
+{
+    return {offset.position.cast<double>() - mean.position, offset.velocity.cast<double>() - mean.velocity};
+}
+
+/// Calls visit(MemberPlace) for each member that was alive at the end of `frame`, of which the picture is.
+template <class Visit>
+void visit_members(const ClusterStore& store, const ClusterPicture& picture, std::uint64_t frame,
+                   const Visit& visit)
+{
+    const FormedOffset* const offsets = store.members.offsets(picture.slab);
+    const float* const masses = store.members.masses(picture.slab);
+    const std::uint8_t* const kinds = store.members.kinds(picture.slab);
+    const std::uint32_t* const expiries = store.members.expiries(picture.slab);
+    for (std::uint32_t row = 0; row < picture.stored; ++row) {
+        if (expiries != nullptr && expiries[row] <= frame)
+            continue;
+        const MapBlocks::Offset now = picture.map.forward(relative_to(offsets[row], picture.mean));
+        visit(MemberPlace{picture.position + now.position,
+                          double(masses != nullptr ? masses[row] : store.uniform_mass),
+                          kinds != nullptr ? kinds[row] : std::uint8_t(0)});
+    }
+}
+
 /// Where a cluster was at the end of an earlier frame of its life, for its members' places then.
 struct ClusterPast {
     std::uint64_t formation = 0; ///< which cluster

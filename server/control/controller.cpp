@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "control/error_controller.hpp"
 #include "control/paper_controller.hpp"
 #include "control/smooth_controller.hpp"
 
@@ -28,6 +29,8 @@ std::unique_ptr<Controller> make_controller(const ControlSettings& settings, con
         return std::make_unique<PaperController>(settings, scope, detail);
     case ControlMode::Smooth:
         return std::make_unique<SmoothController>(settings, scope, detail);
+    case ControlMode::Error:
+        return std::make_unique<ErrorController>(settings, scope, detail);
     case ControlMode::Off:
         break;
     }

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "control/settings.hpp"
+#include "meter/error_window.hpp"
 #include "tree/detail.hpp"
 
 namespace slod {
@@ -13,9 +15,11 @@ namespace slod {
 /// What a controller is told of the frame that ended.
 struct FrameWork {
     double work_ms;   ///< step and encoding; one that is not above 0 and finite is not taken for a time
-    double target_ms; ///< that it is to take; above 0
-    std::uint64_t particles, clusters; ///< at its end
-    double growth = 0;                 ///< particles born less those that died
+    double target_ms; ///< that it is to take; above 0; infinite: as long as it likes
+    std::uint64_t particles, clusters;     ///< at its end
+    double growth = 0;                     ///< particles born less those that died
+    std::uint64_t frame = 0;               ///< its number
+    std::span<const ErrorSample> errors{}; ///< that came to be known in it
 };
 
 /// What there is to turn in a scene.
@@ -35,19 +39,21 @@ enum class ControlState : std::uint8_t {
     Holding,     ///< the target is met
     Adjusting,   ///< on the way to it
     Finest,      ///< faster than asked for, with the finest detail there is
-    Unreachable, ///< slower than asked for, with the coarsest
+    Unreachable, ///< slower than asked for with the coarsest, or less accurate with the finest
+    Yielding,    ///< less accurate than asked for, to hold the frame rate
 };
 
-constexpr std::array<std::string_view, 5> names(ControlState)
+constexpr std::array<std::string_view, 6> names(ControlState)
 {
-    return {"off", "holding", "adjusting", "finest", "unreachable"};
+    return {"off", "holding", "adjusting", "finest", "unreachable", "yielding"};
 }
 
 /// How a frame rate is held at present.
 struct ControlReport {
     ControlMode mode = ControlMode::Off;
     ControlState state = ControlState::Off;
-    double target_ms = 0;        ///< work that a frame is to take; 0: there is no controller
+    double target_ms = 0;        ///< work that a frame is to take; 0: none is held
+    double target_error = 0;     ///< median error of accelerations; 0: none is held
     std::uint64_t decisions = 0; ///< changes of detail so far
 };
 

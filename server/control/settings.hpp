@@ -13,11 +13,20 @@ enum class ControlMode : std::uint8_t {
     Off,    ///< nothing: the scene's own detail
     Paper,  ///< one particle more or less per frame (O'Brien et al. 2001, section 6.1)
     Smooth, ///< a controller without a limit cycle
+    Error,  ///< the same, and clusters no smaller than a measured error asks for
 };
 
-constexpr std::array<std::string_view, 3> names(ControlMode)
+constexpr std::array<std::string_view, 4> names(ControlMode)
 {
-    return {"off", "paper", "smooth"};
+    return {"off", "paper", "smooth", "error"};
+}
+
+/// Which target goes first where both cannot be had.
+enum class ControlPriority : std::uint8_t { FrameRate, Error };
+
+constexpr std::array<std::string_view, 2> names(ControlPriority)
+{
+    return {"frame_rate", "error"};
 }
 
 /// How a frame rate is held by changing the level of detail. The frame's work, step and encoding, is held at
@@ -30,6 +39,8 @@ struct ControlSettings {
     double largest_opening = 4; ///< bounds of the levers that follow when the clusters are largest: factors
     double largest_life = 2;
     double largest_breadth = 4;
+    double target_error = 0.01; ///< median error of accelerations, where the mode is Error
+    ControlPriority priority = ControlPriority::FrameRate;
 
     friend bool operator==(const ControlSettings&, const ControlSettings&) = default;
 };
@@ -57,6 +68,13 @@ void for_each_field(ControlSettings& control, Visitor&& visit)
           control.largest_life);
     visit(Field{"largest_breadth", "", "Factor up to which max_breadth is raised after that.", 1, 1000},
           control.largest_breadth);
+    visit(Field{"target_error", "",
+                "Median error of members' accelerations, relative, that mode \"error\" holds.", 1e-6, 10},
+          control.target_error);
+    visit(Field{"priority", "",
+                "Which target mode \"error\" gives up where it cannot hold both: not this one. In a free run "
+                "there is no frame rate to hold."},
+          control.priority);
 }
 
 } // namespace slod

@@ -54,7 +54,7 @@ void SmoothController::set_scope(const ControlScope& scope)
 
 double SmoothController::least_output() const
 {
-    return std::log(size_factors(settings_, scope_).least);
+    return std::clamp(finest_, std::log(size_factors(settings_, scope_).least), most_output());
 }
 
 double SmoothController::most_output() const
@@ -107,8 +107,8 @@ void SmoothController::turn_size(double error, double crowding, double growth)
         const double gain = scope_.opening ? gain_of_gravity : gain_of_fields;
         const double wanted = fill_ - crowding + gain * error + growth;
         output_ += std::clamp(wanted - output_, -most_fall, most_rise);
-        output_ = std::clamp(output_, least_output(), most_output());
     }
+    output_ = std::clamp(output_, least_output(), most_output());
     lagged_ += (output_ - lagged_) / lag_frames;
 }
 

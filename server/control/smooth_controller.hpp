@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "control/controller.hpp"
 
@@ -31,6 +32,10 @@ public:
     Detail next(const FrameWork& work) override;
     ControlState state() const override { return state_; }
     void set_scope(const ControlScope& scope) override;
+
+    /// The factor of the cluster sizes is not to fall below exp(logarithm).
+    void set_finest(double logarithm) { finest_ = logarithm; }
+    double output() const { return output_; } ///< logarithm of the cluster size's factor
 
 private:
     /// A further lever: where it is in the detail, whether the scene has it, and its largest factor.
@@ -63,12 +68,13 @@ private:
     static constexpr std::size_t window = 15; ///< frames remembered
     std::array<double, window> costs_{};      ///< logarithm of work per cluster, by frame modulo the window
     std::size_t frames_ = 0;                  ///< taken in so far
-    double output_;                           ///< logarithm of the cluster size's factor
-    double lagged_;                           ///< the same, as the clusters follow it
-    double fill_ = 0;                         ///< crowding + output once clusters have followed
-    double crowding_before_ = 0;              ///< mean of the last frames
-    int turn_frames_ = 0;                     ///< in a row that asked for a turn of the further levers
-    bool exhausted_ = false;                  ///< none is left to turn
+    double finest_ = -std::numeric_limits<double>::infinity(); ///< bound of the output
+    double output_;                                            ///< logarithm of the cluster size's factor
+    double lagged_;                                            ///< the same, as the clusters follow it
+    double fill_ = 0;            ///< crowding + output once clusters have followed
+    double crowding_before_ = 0; ///< mean of the last frames
+    int turn_frames_ = 0;        ///< in a row that asked for a turn of the further levers
+    bool exhausted_ = false;     ///< none is left to turn
 };
 
 } // namespace slod

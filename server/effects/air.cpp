@@ -124,6 +124,21 @@ Tangent Air::tangent_of(const Felt& felt, const Propagator& flow, const Vector3d
     return {xx.cast<float>(), xv.cast<float>(), vx.cast<float>(), vv.cast<float>()};
 }
 
+Vector3d Air::mean_acceleration(const Vector3d& position, const Vector3d& velocity, double start) const
+{
+    const Felt there = felt(position, velocity, start, step_);
+    const Propagator flow = propagator_of(there);
+    return (flow.decay_minus_1 * (velocity - there.fields.wind) + flow.drift * there.fields.gravity) / step_;
+}
+
+Vector3d Air::tangent_acceleration(const Vector3d& position, const Vector3d& velocity, double start,
+                                   const Vector3d& away, const Vector3d& faster) const
+{
+    const Felt there = felt(position, velocity, start, step_);
+    const Tangent tangent = tangent_of(there, propagator_of(there), velocity);
+    return (tangent.vx.cast<double>() * away + tangent.vv.cast<double>() * faster) / step_;
+}
+
 /// Where each cluster of [first, last) will be `ahead` of now, flying straight.
 void Air::ask_winds(const ClusterTable& clusters, std::size_t first, std::size_t last, double ahead,
                     double time)

@@ -50,6 +50,14 @@ public:
     UniformFields felt_by_member(const Felt& cluster, const Vector3d& position,
                                  const Vector3d& velocity) const;
 
+    /// Mean acceleration over a frame from `start` on of what flies by itself from there.
+    Vector3d mean_acceleration(const Vector3d& position, const Vector3d& velocity, double start) const;
+
+    /// The difference to that of its cluster, which is there, that a member `away` from it and `faster` than
+    /// it gets from the tangent of the cluster's flight.
+    Vector3d tangent_acceleration(const Vector3d& position, const Vector3d& velocity, double start,
+                                  const Vector3d& away, const Vector3d& faster) const;
+
     /// How far a member may come from its cluster's way in a frame, at most, from `radius` and `speed` of
     /// all.
     double spread(const Felt& cluster, double radius, double speed) const;

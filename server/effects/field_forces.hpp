@@ -16,6 +16,9 @@ public:
     /// Provides memory for so many clusters.
     void reserve(std::size_t slots);
 
+    /// Of all fields together, at one place.
+    FieldValue at(const Vector3d& x, double time) const { return fields_.at(x, time); }
+
     /// Evaluates all fields for all clusters at `time`.
     void evaluate(const ClusterTable& clusters, double time);
 

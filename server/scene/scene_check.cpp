@@ -75,6 +75,16 @@ void check_instruction_set(const ServerSettings& server, Problems& found)
 
 } // namespace
 
+Problems problems(const LoopSettings& loop)
+{
+    Problems found;
+    for (const std::string& problem : problems(loop.control))
+        found.push_back("control." + problem);
+    if (loop.control.mode == ControlMode::Error && !loop.meter.enabled)
+        found.push_back("control.mode = \"error\" holds what is not measured; set meter.enabled = true.");
+    return found;
+}
+
 Problems problems(const Scene& scene)
 {
     Problems found = problems(scene.simulation);
@@ -84,8 +94,8 @@ Problems problems(const Scene& scene)
     if (pair)
         check_encounter(scene.encounter, found);
     check_instruction_set(scene.loop.server, found);
-    for (const std::string& problem : problems(scene.loop.control))
-        found.push_back("control." + problem);
+    for (const std::string& problem : problems(scene.loop))
+        found.push_back(problem);
     if (scene.initial.fallback == InitialModel::Gadget2)
         found.push_back("initial.fallback = \"gadget2\" is what it would fall back from; use none, galaxy or "
                         "galaxy_pair.");

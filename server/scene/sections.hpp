@@ -65,7 +65,9 @@ void for_each_section(LoopSettings& loop, Visitor&& visit)
 {
     visit(Section{"server", "How the server runs the scene; the outcome does not depend on it."},
           loop.server);
-    visit(Section{"control", "The frame rate, held by changing the level of detail."}, loop.control);
+    visit(Section{"control", "The frame rate and the error, held by changing the level of detail."},
+          loop.control);
+    visit(Section{"meter", "The error of accelerations, measured while the scene runs."}, loop.meter);
 }
 
 /// Likewise for every table, in the order of the reference. The two are the only list of tables.

@@ -30,11 +30,21 @@ struct ServerSettings {
     InstructionSet isa = InstructionSet::Auto;
 };
 
+/// How the error of members' accelerations is measured while the scene runs.
+struct MeterSettings {
+    bool enabled = true;
+    double share = 0.02; ///< of a frame's time, at most
+};
+
 /// What may change while the server runs a scene, besides the simulation.
 struct LoopSettings {
     ServerSettings server; ///< the frame rate of it
     ControlSettings control;
+    MeterSettings meter;
 };
+
+/// What is wrong with the settings together, each with its table; empty when nothing is.
+Problems problems(const LoopSettings& loop);
 
 /// Where the wire reaches.
 enum class WireProfile : std::uint8_t { Loopback, Lan };
@@ -67,6 +77,17 @@ void for_each_field(ServerSettings& server, Visitor&& visit)
     visit(Field{"threads", "", "Worker threads; 0 is one per core.", 0, 1024}, server.threads);
     visit(Field{"isa", "", "Instruction set of the kernels; auto is the fastest that runs here."},
           server.isa);
+}
+
+template <class Visitor>
+void for_each_field(MeterSettings& meter, Visitor&& visit)
+{
+    visit(Field{"enabled", "", "Measure the error while the scene runs."}, meter.enabled);
+    visit(
+        Field{"share", "",
+              "Share of a frame's time that it may take: of the period, or of the work where that is longer.",
+              1e-4, 0.5},
+        meter.share);
 }
 
 template <class Visitor>

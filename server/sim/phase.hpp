@@ -19,14 +19,15 @@ enum class Phase : std::uint8_t {
     Forces,
     CloseKick,
     Snapshot,
+    Meter,
 };
 
-inline constexpr std::size_t phase_count = 10;
+inline constexpr std::size_t phase_count = 11;
 
 constexpr std::array<std::string_view, phase_count> names(Phase)
 {
-    return {"commands", "open_kick", "propagate", "expire",     "emit",
-            "update",   "moments",   "forces",    "close_kick", "snapshot"};
+    return {"commands", "open_kick", "propagate",  "expire",   "emit", "update",
+            "moments",  "forces",    "close_kick", "snapshot", "meter"};
 }
 
 /// Milliseconds of each phase in one frame; 0 for a phase that is not in the plan.

@@ -81,6 +81,9 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::Forces, kicked);
     runs(Phase::CloseKick, kicked);
     runs(Phase::Snapshot, true);
+    const bool drags = settings.linear_drag || plan.air;
+    const bool rigid = plan.map == MapKind::Identity && !plan.unclustered;
+    runs(Phase::Meter, kicked || plan.local_air || (rigid && drags)); // else members get what they should
 }
 
 void list_columns(Plan& plan)

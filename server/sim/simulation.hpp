@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cluster/particles.hpp"
+#include "sim/error_meter.hpp"
 #include "sim/plan.hpp"
 #include "sim/settings.hpp"
 #include "sim/snapshot.hpp"
@@ -34,6 +35,9 @@ public:
     struct Request {
         bool clusters = false;
         bool conserved = false;
+        /// Pairs of a particle and a member drawn that the error meter may sum up, and a block of some
+        /// thousand particles more; 0: it rests. The outcome is the same.
+        std::uint64_t error_pairs = 0;
     };
 
     /// A region of interest as it is. The last one of regions() is the background.
@@ -62,6 +66,12 @@ public:
     /// One frame: one fixed time step. The snapshot is valid until the next call. Throws std::overflow_error
     /// with a remedy when something leaves the range of numbers; the simulation is of no use then.
     const Snapshot& step(const Request& request);
+
+    // What clusters and walks miss of the members' accelerations, measured as frames ask for it.
+    ErrorEstimate error() const;                    ///< of a member that is as likely to be any
+    std::vector<RegionError> region_errors() const; ///< of the members of each region
+    std::vector<ErrorSample> take_error_samples();  ///< of any members, since the last call of this
+    void forget_errors();                           ///< as if nothing had been measured yet
 
     /// The present state, filled as requested, without a step.
     const Snapshot& snapshot(const Request& request);

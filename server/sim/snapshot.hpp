@@ -30,6 +30,7 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t far_nodes = 0;    ///< that act on many clusters at once, by an expansion
     std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
     std::uint64_t nodes_tested = 0; ///< in those walks, whether they may act as one body
+    std::uint64_t error_pairs = 0;  ///< of a particle and a member whose error is measured
     FieldCounts fields{};           ///< by effect of place, in the order of their list; 0 for absent ones
 };
 
@@ -41,7 +42,7 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 27> event_counts{{
+inline constexpr std::array<EventCount, 28> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -69,6 +70,7 @@ inline constexpr std::array<EventCount, 27> event_counts{{
     {"far_nodes", &FrameCounts::far_nodes},
     {"walks", &FrameCounts::walks},
     {"nodes_tested", &FrameCounts::nodes_tested},
+    {"error_pairs", &FrameCounts::error_pairs},
 }};
 
 /// Calls visit(name, count) for all of them; of each effect of place, by its name, for the clusters that it

@@ -103,7 +103,7 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
       emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step,
                collisions ? &collisions->colliders() : nullptr, air ? &*air : nullptr,
                draining ? &draining->sinks() : nullptr),
-      particle_count(initial.size())
+      meter(scene.seed), particle_count(initial.size())
 {
     if (scene.gravity)
         gravitational_constant *= scene.gravity->strength;
@@ -138,7 +138,8 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
 
 void Simulation::State::open_frame()
 {
-    store.members.recycle(frame + 1);
+    meter.give_up_late(frame);
+    store.members.recycle(meter.recyclable_before(frame + 1));
     if (tree.unsettled)
         settle(tree);
     make_room();

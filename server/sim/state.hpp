@@ -13,6 +13,7 @@
 #include "effects/member_kicks.hpp"
 #include "gravity/force_view.hpp"
 #include "gravity/forces.hpp"
+#include "sim/error_meter.hpp"
 #include "sim/simulation.hpp"
 #include "simd/kernels.hpp"
 #include "tree/expire.hpp"
@@ -44,6 +45,10 @@ struct Simulation::State {
     void evaluate_forces();
     void evaluate_gravity();
     void observe(const Request& request);
+    void measure_errors(std::uint64_t pairs);
+    void compare(ErrorMeter::Drawn& drawn) const;
+    Vector3d air_at(const Vector3d& x, const Vector3d& v) const;
+    Vector3d air_by_cluster(std::size_t slot, const Vector3d& away, const Vector3d& v) const;
     void count_regions();
     void copy_clusters();
 
@@ -99,6 +104,8 @@ struct Simulation::State {
     ForceView view;
     ForceLists force_lists;
     std::optional<FieldForces> field_forces; ///< where accelerations depend on the place
+
+    ErrorMeter meter;
 
     bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
     std::uint64_t particle_count = 0;

@@ -16,11 +16,6 @@
 // of the state are compared after every frame, and the first frame that differs is named.
 namespace slod::test {
 
-void PrintTo(const SmallScene& scene, std::ostream* out)
-{
-    *out << scene.name;
-}
-
 namespace {
 
 constexpr int frame_count = 48; ///< three of the longest lives
@@ -38,7 +33,7 @@ const Snapshot& step(Simulation& simulation, int frame)
     if (frame == frame_count / 2 && !simulation.plan().unclustered) {
         EXPECT_EQ(simulation.set_detail(other), Problems{});
     }
-    return simulation.step({});
+    return simulation.step({.error_pairs = 4000});
 }
 
 /// The state's hash at the start and after each frame.

@@ -122,7 +122,7 @@ TEST_F(Replay, FindsTheRecordedParticlesAndRefusesOthers)
 // N10: what a controller decides depends on the clock, but the log has it.
 TEST_F(Replay, AgreesThoughAControllerHeldTheFrameRate)
 {
-    for (const char* mode : {"smooth", "paper"}) {
+    for (const char* mode : {"smooth", "paper", "error"}) {
         const ServerRun held =
             run_server({scene_, "--no-dds", "--frames", "200", "--set", "server.frame_rate=300", "--set",
                         std::string("control.mode=\"") + mode + '"', "--output-dir", folder_});

@@ -18,7 +18,7 @@ using client::Connection;
 using client::Contact;
 using test::eventually;
 
-constexpr LoopStats loop_stats{.frame_rate_hz = 30, .work_ms = 5, .real_time_factor = 1};
+const LoopStats loop_stats{.frame_rate_hz = 30, .work_ms = 5, .real_time_factor = 1};
 
 class WirePublish : public testing::Test {
 protected:

@@ -64,7 +64,7 @@ TEST(Paper, A03_EachFrameMovesThenUpdatesTheTreeThenHandsOutWhatIsShownEachOnce)
     const StepProfile profile = simulation.step({}).profile;
     const std::vector<Phase> order{Phase::Commands,  Phase::OpenKick, Phase::Propagate, Phase::Expire,
                                    Phase::Emit,      Phase::Update,   Phase::Moments,   Phase::Forces,
-                                   Phase::CloseKick, Phase::Snapshot};
+                                   Phase::CloseKick, Phase::Snapshot, Phase::Meter};
     EXPECT_EQ(readings, 2 * std::int64_t(order.size()));
     for (std::size_t i = 0; i < order.size(); ++i) {
         const double start = double(2 * i + 1), end = double(2 * i + 2);

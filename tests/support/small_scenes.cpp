@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <stdexcept>
 
 #include "core/parallel.hpp"
@@ -286,6 +287,11 @@ EmitterSettings jet(const std::string& name)
     emitter.rate = 640;
     emitter.lifetime = 0.5;
     return emitter;
+}
+
+void PrintTo(const SmallScene& scene, std::ostream* out)
+{
+    *out << scene.name;
 }
 
 std::vector<SmallScene> small_scenes()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct SmallScene {
     SimulationSettings settings;
     ParticleSet initial;
 };
+
+/// For messages of tests: its name.
+void PrintTo(const SmallScene& scene, std::ostream* out);
 
 /// One scene for every road through the step: motion flow, stream and rigid in self-gravity, unclustered,
 /// in double, by walks of the tree, a fountain, one with regions of interest, one of two kinds falling

@@ -147,7 +147,7 @@ TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
     for (const std::string table :
          {"galaxy.particles", "wire.commands", "linear_drag.rate", "emitter.0.rate"})
         expect(table, table + " cannot change while the scene runs; start the server with it. What can is in "
-                              "background, control, gravity, server, uniform_gravity, uniform_wind.");
+                              "background, control, gravity, meter, server, uniform_gravity, uniform_wind.");
     expect("gravity", "write table.key");
     Request wind = request("set");
     wind.settings = {{"uniform_wind.velocity", "[1, 0, 0]"}};

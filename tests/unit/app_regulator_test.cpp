@@ -27,7 +27,7 @@ protected:
             regulator.set(loop, editor, simulation);
             regulator.apply(editor, frame);
             const Snapshot& snapshot = simulation.step({});
-            regulator.add(snapshot, double(snapshot.counts.clusters));
+            regulator.add(snapshot, double(snapshot.counts.clusters), simulation.take_error_samples());
         }
     }
 
@@ -42,7 +42,7 @@ protected:
 
     Simulation simulation = test::drifting_cloud(64);
     SceneEditor editor{simulation};
-    Regulator regulator;
+    Regulator regulator{true};
     std::uint64_t frame = 0;
 };
 
@@ -134,9 +134,9 @@ TEST(Regulator, LeavesASceneThatWasPlannedWithoutClustersAlone)
 {
     Simulation simulation = test::drifting_cloud(1);
     SceneEditor editor(simulation);
-    Regulator regulator;
+    Regulator regulator{true};
     regulator.set({}, editor, simulation);
-    regulator.add(simulation.step({}), 1000);
+    regulator.add(simulation.step({}), 1000, {});
     regulator.apply(editor, 2);
     EXPECT_EQ(regulator.report().state, ControlState::Off);
     EXPECT_FALSE(simulation.set_detail({.cluster_size = 2}).empty());

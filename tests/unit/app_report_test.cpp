@@ -169,8 +169,9 @@ TEST(Status, NamesThePlannedPhasesAlone)
     LoopMeans means;
     means.profile[Phase::Forces] = 7.5;
     means.profile[Phase::Emit] = 1;
-    for (const std::string& text : {status_line(snapshot(8, 0), means, gravity_plan(), {}),
-                                    status_record(snapshot(8, 0), means, gravity_plan(), {})}) {
+    const Snapshot now = snapshot(8, 0);
+    const Plan plan = gravity_plan();
+    for (const std::string& text : {status_line({now, means, plan}), status_record({now, means, plan})}) {
         EXPECT_NE(text.find("7.5"), std::string::npos) << text;
         EXPECT_NE(text.find("forces"), std::string::npos) << text;
         EXPECT_EQ(text.find("emit"), std::string::npos) << text;
@@ -185,28 +186,53 @@ TEST(Status, TheLongestPhaseComesFirst)
     means.profile[Phase::Forces] = 7;
     Plan plan = gravity_plan();
     plan.runs[std::size_t(Phase::Update)] = true;
-    EXPECT_NE(status_line(snapshot(8, 0), means, plan, {}).find("forces 7.0 update 2.0"), std::string::npos);
+    EXPECT_NE(status_line({snapshot(8, 0), means, plan}).find("forces 7.0 update 2.0"), std::string::npos);
 }
 
 TEST(Status, IsReadableForPeopleAndForPrograms)
 {
     LoopMeans means;
     means.real_time_factor = 1;
-    EXPECT_NE(status_line(snapshot(8, 0), means, {}, {}).find("x1.00  1,234,567 particles"),
-              std::string::npos);
+    EXPECT_NE(status_line({snapshot(8, 0), means, {}}).find("x1.00  1,234,567 particles"), std::string::npos);
     means.real_time_factor = 3.15576e15;
-    EXPECT_NE(status_line(snapshot(8, 0), means, {}, {}).find("100 Myr/s"), std::string::npos);
-    EXPECT_NE(status_record(snapshot(8, 0), means, {}, {}).find(" particles=1234567 "), std::string::npos);
+    EXPECT_NE(status_line({snapshot(8, 0), means, {}}).find("100 Myr/s"), std::string::npos);
+    EXPECT_NE(status_record({snapshot(8, 0), means, {}}).find(" particles=1234567 "), std::string::npos);
 }
 
 TEST(Status, SaysHowTheFrameRateIsHeldWhereAnythingHoldsIt)
 {
     const ControlReport held{.mode = ControlMode::Smooth, .state = ControlState::Holding, .target_ms = 26};
-    EXPECT_NE(status_line(snapshot(8, 0), {}, {}, held).find("20 clusters of 23.5, holding"),
+    EXPECT_NE(status_line({snapshot(8, 0), {}, {}, held}).find("20 clusters of 23.5, holding"),
               std::string::npos);
-    EXPECT_NE(status_record(snapshot(8, 0), {}, {}, held).find(" max_cluster_size=23.5 control=holding "),
+    EXPECT_NE(status_record({snapshot(8, 0), {}, {}, held}).find(" max_cluster_size=23.5 control=holding "),
               std::string::npos);
-    EXPECT_EQ(status_line(snapshot(8, 0), {}, {}, {}).find("23.5"), std::string::npos);
+    EXPECT_EQ(status_line({snapshot(8, 0), {}, {}}).find("23.5"), std::string::npos);
+}
+
+TEST(Status, SaysTheErrorWithItsIntervalWhereItIsMeasured)
+{
+    ErrorEstimate error;
+    error.samples = 700;
+    error.median = {.value = 0.0031, .low = 0.0028, .high = 0.0035};
+    error.p99.value = 0.07;
+    EXPECT_NE(status_line({snapshot(8, 0), {}, {}, {}, error}).find("error 0.31 % (0.28 to 0.35)"),
+              std::string::npos);
+    EXPECT_NE(status_record({snapshot(8, 0), {}, {}, {}, error})
+                  .find(" error_median=0.0031 error_p99=0.07 error_samples=700 "),
+              std::string::npos);
+    EXPECT_EQ(status_line({snapshot(8, 0), {}, {}}).find("error"), std::string::npos);
+}
+
+TEST(Report, TheErrorIsNothingOrWhatWasMeasured)
+{
+    EXPECT_TRUE(reported({}, {})["error"].is_null());
+    RunSummary summary;
+    summary.error.samples = 700;
+    summary.error.median = {.value = 0.0031, .low = 0.0028, .high = 0.0035};
+    const nlohmann::json error = reported({}, summary)["error"];
+    EXPECT_EQ(error["samples"], 700);
+    EXPECT_EQ(error["median"]["value"], 0.0031);
+    EXPECT_EQ(error["median"]["high"], 0.0035);
 }
 
 } // namespace

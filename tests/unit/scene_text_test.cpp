@@ -204,6 +204,7 @@ Scene random_scene(std::uint64_t seed)
     }
     std::tie(scene.loop.control.smallest_cluster_size, scene.loop.control.largest_cluster_size) =
         std::minmax({scene.loop.control.smallest_cluster_size, scene.loop.control.largest_cluster_size});
+    scene.loop.meter.enabled = scene.loop.meter.enabled || scene.loop.control.mode == ControlMode::Error;
     scene.loop.server.isa = InstructionSet(scrambler.below(2)); // the others do not run everywhere
     scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;
     scene.initial.fallback = InitialModel::None;

@@ -12,11 +12,6 @@
 // Scenes at the edge of what makes sense: nothing, one thing, everything in one place, nothing that weighs.
 namespace slod::test {
 
-void PrintTo(const SmallScene& scene, std::ostream* out)
-{
-    *out << scene.name;
-}
-
 namespace {
 
 constexpr int frame_count = 40;

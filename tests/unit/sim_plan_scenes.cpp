@@ -11,10 +11,10 @@ namespace {
 const Names with_births{"commands", "propagate", "emit", "update", "snapshot"};
 const Names with_deaths{"commands", "propagate", "expire", "update", "snapshot"};
 const Names with_both{"commands", "propagate", "expire", "emit", "update", "snapshot"};
-const Names attracted{"commands", "open_kick", "propagate",  "update",
-                      "moments",  "forces",    "close_kick", "snapshot"};
-const Names all_phases{"commands", "open_kick", "propagate", "expire",     "emit",
-                       "update",   "moments",   "forces",    "close_kick", "snapshot"};
+const Names attracted{"commands", "open_kick",  "propagate", "update", "moments",
+                      "forces",   "close_kick", "snapshot",  "meter"};
+const Names all_phases{"commands", "open_kick", "propagate",  "expire",   "emit", "update",
+                       "moments",  "forces",    "close_kick", "snapshot", "meter"};
 
 void attract(SmallScene& scene)
 {
@@ -242,7 +242,7 @@ std::vector<PlannedScene> scenes_of_fields()
         {.name = "gusts", .choose = gust, .effects = {"linear_drag", "wind"}},
         {.name = "turbulence",
          .choose = swirl,
-         .phases = {"commands", "propagate", "update", "moments", "snapshot"},
+         .phases = {"commands", "propagate", "update", "moments", "snapshot", "meter"},
          .effects = {"linear_drag", "turbulence"},
          .map = MapKind::Full,
          .exact = false,
@@ -250,7 +250,7 @@ std::vector<PlannedScene> scenes_of_fields()
          .cluster_columns = {"flow map and closure", "variance", "winds", "strain"}},
         {.name = "quadratic_drag",
          .choose = resist,
-         .phases = {"commands", "propagate", "update", "moments", "snapshot"},
+         .phases = {"commands", "propagate", "update", "moments", "snapshot", "meter"},
          .effects = {"quadratic_drag"},
          .map = MapKind::Full,
          .exact = false,
@@ -259,7 +259,8 @@ std::vector<PlannedScene> scenes_of_fields()
         {.name = "kicks", .choose = shake, .effects = {"speed_limit", "brownian"}, .merging = true},
         {.name = "unclustered_spring",
          .choose = all<add_field<Spring>, uncluster>,
-         .phases = {"commands", "open_kick", "propagate", "update", "forces", "close_kick", "snapshot"},
+         .phases = {"commands", "open_kick", "propagate", "update", "forces", "close_kick", "snapshot",
+                    "meter"},
          .effects = {"spring"},
          .map = MapKind::Identity,
          .cluster_columns = {"acceleration and variance", "fields"}},

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr LoopStats no_stats{};
+const LoopStats no_stats{};
 constexpr Due nothing{};
 constexpr Due clusters{.clusters = true, .overview = false};
 constexpr Due overview{.clusters = false, .overview = true};

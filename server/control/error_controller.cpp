@@ -1,0 +1,126 @@
+#include "control/error_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace slod {
+namespace {
+
+constexpr std::size_t window = 1024;    ///< samples remembered
+constexpr std::size_t enough = 256;     ///< samples that a turn is made upon
+constexpr std::size_t enough_afar = 64; ///< and where the error is far off
+constexpr double afar = 0.5;            ///< such a difference of logarithms
+constexpr double band = 0.1;       ///< of the error's logarithm about its target's, within which it rests
+constexpr double leave = 0.15;     ///< and above which it no longer does, by a full window
+constexpr double most_rise = 0.06; ///< of the logarithm of the size in a frame
+constexpr double most_turn = 0.7;  ///< of the same at once
+/// Logarithm of the size by which one of the error is answered. Errors go with a power of the size between
+/// 0.3 and 1.2 (flow maps, galaxies and pairs of them): a turn leaves a fifth to seven tenths of the
+/// difference.
+constexpr double gain = 1;
+/// Largest difference of sizes at which clusters count as still, and frames that they have to be so before
+/// samples count: merges come in rounds of 16 frames.
+constexpr double still_size = 1e-3;
+constexpr int patience = 24;
+constexpr double mean_frames = 16; ///< of the crowding
+
+/// Largest difference of the crowding and its mean at which clusters count as still. Their number varies by
+/// its root where they are formed anew now and then.
+double still_crowding(double clusters)
+{
+    return 0.02 + 1 / std::sqrt(clusters);
+}
+
+} // namespace
+
+ErrorController::ErrorController(const ControlSettings& settings, const ControlScope& scope,
+                                 const Detail& detail)
+    : settings_(settings), scope_(scope), frame_rate_(settings, scope, detail), errors_(window),
+      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), detail_(detail)
+{}
+
+void ErrorController::set_scope(const ControlScope& scope)
+{
+    scope_ = scope;
+    still_frames_ = 0;
+    frame_rate_.set_scope(scope);
+}
+
+Detail ErrorController::next(const FrameWork& work)
+{
+    note_size(work);
+    if (take_samples(work))
+        turn_goal();
+    floor_ = std::min(goal_, floor_ + most_rise); // downwards the frame rate's controller sets the pace
+    frame_rate_.set_finest(floor_);
+    FrameWork asked = work;
+    if (settings_.priority == ControlPriority::Error)
+        asked.target_ms = std::numeric_limits<double>::infinity();
+    yields_ = exceeded_ && std::isfinite(asked.target_ms) && frame_rate_.output() > floor_ + still_size;
+    const Detail before = std::exchange(detail_, frame_rate_.next(asked));
+    if (before.opening != detail_.opening || before.life != detail_.life || before.breadth != detail_.breadth)
+        still_frames_ = 0; // these make an error, too
+    return detail_;
+}
+
+ControlState ErrorController::state() const
+{
+    if (frame_rate_.state() == ControlState::Unreachable)
+        return ControlState::Unreachable;
+    return yields_ ? ControlState::Yielding : state_;
+}
+
+void ErrorController::note_size(const FrameWork& work)
+{
+    if (work.clusters == 0)
+        return;
+    const double crowding = std::log(double(work.clusters) / double(work.particles));
+    const bool still = std::abs(frame_rate_.output() - size_) < still_size &&
+                       std::abs(crowding - crowding_) < still_crowding(double(work.clusters));
+    size_ = frame_rate_.output();
+    crowding_ += (crowding - crowding_) / mean_frames;
+    still_frames_ = still ? still_frames_ + 1 : 0;
+}
+
+bool ErrorController::take_samples(const FrameWork& work)
+{
+    if (still_frames_ == 0)
+        errors_.clear();
+    if (still_frames_ <= patience)
+        still_since_ = work.frame;
+    const std::size_t before = errors_.size();
+    for (const ErrorSample& sample : work.errors)
+        if (still_frames_ > patience && sample.frame >= still_since_)
+            errors_.add(sample);
+    return errors_.size() > before || (errors_.size() == window && !work.errors.empty());
+}
+
+void ErrorController::turn_goal()
+{
+    if (errors_.size() < enough_afar)
+        return;
+    const ErrorQuantile median = errors_.estimate().median;
+    const double excess = std::log(median.value / settings_.target_error);
+    const bool resting = state_ == ControlState::Holding;
+    if (errors_.size() < (resting ? window : enough) && std::abs(excess) < afar)
+        return;
+    const bool by_chance = median.low <= settings_.target_error && settings_.target_error <= median.high;
+    exceeded_ = excess > 0 && !by_chance;
+    if (by_chance || std::abs(excess) < (resting ? leave : band)) {
+        state_ = ControlState::Holding;
+        goal_ = size_;
+        return;
+    }
+    const SizeFactors sizes = size_factors(settings_, scope_);
+    const double least = std::log(sizes.least), most = std::log(sizes.most);
+    const double wanted = size_ - std::clamp(gain * excess, -most_turn, most_turn);
+    goal_ = std::clamp(wanted, least, most);
+    if (excess > 0 && size_ <= least)
+        state_ = ControlState::Unreachable;
+    else
+        state_ = excess < 0 && size_ >= most ? ControlState::Holding : ControlState::Adjusting;
+}
+
+} // namespace slod

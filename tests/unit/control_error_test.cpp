@@ -1,0 +1,139 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "control/controller.hpp"
+#include "support/plant.hpp"
+
+// What holds an error, on a plant whose clusters give errors that go with a power of their size.
+namespace slod::test {
+namespace {
+
+constexpr double target_ms = 26;
+
+struct ErrorPlant {
+    Plant plant{.cost_ms = 0.005};
+    double error_at_64 = 0.02; ///< median
+    double power = 0.6;        ///< of the size, in the error
+    double spread = 1;         ///< of the logarithm of the errors
+    int samples = 12;          ///< a frame
+    int late = 5;              ///< frames until they are known
+    std::uint64_t drawn = 0;
+
+    double size() const { return plant.particles / plant.clusters; }
+    double median() const { return error_at_64 * std::pow(size() / 64, power); }
+
+    std::vector<ErrorSample> draw()
+    {
+        std::vector<ErrorSample> errors;
+        for (int i = 0; i < samples && plant.frames > std::uint64_t(late); ++i) {
+            Random random(11, 3, drawn++);
+            const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
+            const double normal = radius * std::cos(2 * std::numbers::pi * random.uniform());
+            errors.push_back({plant.frames - std::uint64_t(late), median() * std::exp(spread * normal)});
+        }
+        return errors;
+    }
+};
+
+struct Outcome {
+    double work_ms = 0; ///< of the last frame
+    double held = 0;    ///< share of the last 300 frames in which the median was within a fifth of the target
+    double holding = 0; ///< share of them in which the controller said so
+    int moves = 0;      ///< of the size in them
+    ControlState state = ControlState::Off;
+};
+
+Outcome run(ErrorPlant& plant, const ControlSettings& settings, double frame_ms, int frames = 1500)
+{
+    constexpr int last = 300;
+    const auto controller = make_controller(settings, {}, {});
+    Detail detail;
+    Outcome outcome;
+    for (int frame = 0; frame < frames; ++frame) {
+        outcome.work_ms = plant.plant.run(detail);
+        FrameWork told = plant.plant.told(outcome.work_ms, frame_ms);
+        const std::vector<ErrorSample> errors = plant.draw();
+        told.frame = plant.plant.frames;
+        told.errors = errors;
+        const Detail next = controller->next(told);
+        const bool moved = !(std::exchange(detail, next) == next);
+        outcome.state = controller->state();
+        if (frame < frames - last)
+            continue;
+        outcome.moves += moved ? 1 : 0;
+        outcome.held += std::abs(plant.median() / settings.target_error - 1) < 0.2 ? 1.0 / last : 0;
+        outcome.holding += outcome.state == ControlState::Holding ? 1.0 / last : 0;
+    }
+    return outcome;
+}
+
+ControlSettings holding(double error, ControlPriority priority = ControlPriority::FrameRate)
+{
+    return {.mode = ControlMode::Error, .target_error = error, .priority = priority};
+}
+
+TEST(ErrorControl, BringsTheMedianWithinAFifthOfTheTarget)
+{
+    for (const double power : {0.3, 0.6, 1.2})
+        for (const double spread : {0.3, 1.0})
+            for (const double target : {0.008, 0.02, 0.03}) {
+                SCOPED_TRACE(testing::Message()
+                             << "power " << power << " spread " << spread << " target " << target);
+                ErrorPlant plant{.power = power, .spread = spread};
+                const Outcome outcome = run(plant, holding(target, ControlPriority::Error), target_ms);
+                EXPECT_GE(outcome.held, 0.95);
+                EXPECT_GE(outcome.holding, 0.5);
+            }
+}
+
+TEST(ErrorControl, RestsOnceItIsThere)
+{
+    ErrorPlant plant;
+    EXPECT_EQ(run(plant, holding(0.01, ControlPriority::Error), target_ms, 3000).moves, 0);
+}
+
+TEST(ErrorControl, MakesNothingFinerThanTheErrorAsks)
+{
+    ErrorPlant plant; // for which the frame rate alone would have clusters of 13
+    const Outcome outcome = run(plant, holding(0.015), target_ms);
+    EXPECT_NEAR(plant.median() / 0.015, 1, 0.2);
+    EXPECT_LT(outcome.work_ms, 0.6 * target_ms);
+    EXPECT_EQ(outcome.state, ControlState::Holding);
+}
+
+TEST(ErrorControl, GivesUpTheTargetThatDoesNotGoFirst)
+{
+    ErrorPlant yielding;
+    const Outcome rate_first = run(yielding, holding(0.003), target_ms);
+    EXPECT_NEAR(rate_first.work_ms / target_ms, 1, 0.05);
+    EXPECT_GT(yielding.median(), 1.5 * 0.003);
+    EXPECT_EQ(rate_first.state, ControlState::Yielding);
+
+    ErrorPlant insisting;
+    const Outcome error_first = run(insisting, holding(0.003, ControlPriority::Error), target_ms);
+    EXPECT_NEAR(insisting.median() / 0.003, 1, 0.2);
+    EXPECT_GT(error_first.work_ms, 1.5 * target_ms);
+    EXPECT_EQ(error_first.state, ControlState::Holding);
+}
+
+TEST(ErrorControl, SaysWhenTheFinestIsNotAccurateEnough)
+{
+    ErrorPlant plant{.power = 0.3};
+    const Outcome outcome = run(plant, holding(1e-4, ControlPriority::Error), target_ms, 3000);
+    EXPECT_NEAR(plant.size(), 1, 0.01);
+    EXPECT_EQ(outcome.state, ControlState::Unreachable);
+}
+
+TEST(ErrorControl, WithoutSamplesKeepsTheSize)
+{
+    ErrorPlant plant{.samples = 0};
+    run(plant, holding(1e-4, ControlPriority::Error), target_ms);
+    EXPECT_NEAR(plant.size(), 64, 1);
+}
+
+} // namespace
+} // namespace slod::test
