@@ -233,6 +233,32 @@ TEST(ErrorMeter, HasTheSameSamplesAtAnyNumberOfThreads)
     EXPECT_EQ(samples(3), one);
 }
 
+// What is summed up later is of the frame in which the sums began, though clusters are formed anew meanwhile.
+TEST(ErrorMeter, HasTheSameSamplesHoweverManyFramesTheSumsTake)
+{
+    SmallScene scene{"large", quiet_settings(), {}};
+    scene.settings.gravity.emplace();
+    scene.settings.background.max_cluster_size = 16;
+    add_cloud(scene.initial, {.count = 40'000}, 5);
+    const auto samples = [&](std::uint64_t pairs, std::uint64_t least_frames) {
+        Simulation simulation(scene.settings, scene.initial, {});
+        std::uint64_t frames = 0, formed = 0;
+        for (; simulation.error().samples == 0 && frames < 40; ++frames)
+            formed += simulation.step({.error_pairs = pairs}).counts.reformed_members;
+        EXPECT_GE(frames, least_frames);
+        EXPECT_GE(formed, frames > 1 ? scene.initial.size() / 4 : 0);
+        std::vector<double> errors;
+        for (const ErrorSample& sample : simulation.take_error_samples()) {
+            EXPECT_EQ(sample.frame, 1U);
+            errors.push_back(sample.error);
+        }
+        return errors;
+    };
+    const std::vector<double> at_once = samples(all_there_is, 1);
+    EXPECT_GE(at_once.size(), 8U);
+    EXPECT_EQ(samples(1, 15), at_once);
+}
+
 // Rows of members are kept for sums that are under way: not for ever.
 TEST(ErrorMeter, GivesUpWhatIsNotGoneOnWith)
 {
