@@ -31,8 +31,8 @@ ExitCode run_roi(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_steering(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
 
-/// Prints the error of accelerations, of all particles and by region.
-ExitCode run_error(const CommandLine& line, const std::stop_token& stop);
+/// Prints the errors of accelerations, of all particles and by region.
+ExitCode run_errors(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_echo(const CommandLine& line, const std::stop_token& stop);
 
 /// hz, bw and latency of a topic, once a second.

@@ -28,7 +28,7 @@ TEST_F(Errors, AreToldOfAllAndByRegion)
     EXPECT_LE(all.p99.value, all.max);
     EXPECT_EQ(all.target, 0);
 
-    ASSERT_EQ(control({"error"}), 0);
+    ASSERT_EQ(control({"errors"}), 0);
     EXPECT_EQ(answer.at("region"), "");
     EXPECT_GT(answer.at("samples"), 0);
 
@@ -51,6 +51,11 @@ TEST_F(Errors, ATargetIsTakenAndTold)
     ASSERT_TRUE(sees(connection, [&] {
         return connection.stats()->control.mode == "smooth" &&
                connection.server()->frame_rate_target_hz == 50;
+    }));
+    ASSERT_EQ(control({"target", "fps", "40", "error", "0.02"}), 0) << answer;
+    ASSERT_TRUE(sees(connection, [&] {
+        return connection.error() && connection.error()->target == 0.02 &&
+               connection.server()->frame_rate_target_hz == 40;
     }));
     ASSERT_EQ(control({"target", "off"}), 0) << answer;
     EXPECT_TRUE(sees(connection, [&] { return connection.stats()->control.mode == "off"; }));

@@ -25,7 +25,7 @@ Json row_of(const std::string& region, const client::MeasuredError& error)
 
 } // namespace
 
-ExitCode run_error(const CommandLine& line, const std::stop_token& stop)
+ExitCode run_errors(const CommandLine& line, const std::stop_token& stop)
 {
     client::Connection connection(line.server.domain, line.server.profile, {.errors = true});
     const client::Clock::time_point end = deadline(line.server);
