@@ -7,7 +7,7 @@ namespace slod {
 namespace {
 
 constexpr double most_saved_frames = 8; ///< of which the share may be left for one frame
-constexpr double mean_frames = 8;       ///< of the rate
+constexpr double mean_frames = 8;       ///< in which a rate is forgotten
 
 } // namespace
 
@@ -24,8 +24,11 @@ void MeterBudget::add(const MeterSettings& settings, double frame_ms, double met
     if (!std::isfinite(share_ms) || !std::isfinite(meter_ms))
         return; // the clock was turned
     credit_ms_ = std::min(credit_ms_ + share_ms - meter_ms, most_saved_frames * share_ms);
-    if (pairs > 0 && meter_ms > 0)
-        pairs_per_ms_ += (double(pairs) / meter_ms - pairs_per_ms_) / mean_frames;
+    if (pairs == 0 || meter_ms <= 0)
+        return;
+    // A frame in which sums begin does fewer, which says nothing of the next.
+    const double rate = double(pairs) / meter_ms;
+    pairs_per_ms_ = std::max(rate, pairs_per_ms_ + (rate - pairs_per_ms_) / mean_frames);
 }
 
 } // namespace slod

@@ -18,7 +18,7 @@ public:
 
 private:
     double credit_ms_ = 0;
-    double pairs_per_ms_ = 2e5; ///< mean; what a slow core does, to begin with
+    double pairs_per_ms_ = 2e5; ///< the best of late; what a slow core does, to begin with
 };
 
 } // namespace slod

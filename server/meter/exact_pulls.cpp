@@ -87,7 +87,7 @@ void ExactPulls::cut(const ClusterStore& store, std::span<const Attracts> attrac
         const bool own_region = attracts[region] == Attracts::OwnRegion;
         const auto place = std::uint32_t(slots_.size());
         const auto fits = [&](const Block& block) {
-            return block.particles < block_particles && block.own_region == own_region &&
+            return block.particles * probes_.size() < block_pairs && block.own_region == own_region &&
                    (!own_region || block.region == region);
         };
         if (blocks_.empty() || !fits(blocks_.back()))

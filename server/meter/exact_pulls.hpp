@@ -27,8 +27,8 @@ class ExactPulls {
 public:
     static constexpr std::size_t most_probes = 256;
 
-    /// Particles of one block of work, at least, where there are so many.
-    static constexpr std::uint64_t block_particles = 2048;
+    /// Pairs of one block of work, at least, where there are so many.
+    static constexpr std::uint64_t block_pairs = 65'536;
 
     /// Begins a pass over the clusters as they are after `frame` frames. `attracts`: whom the particles of
     /// each region attract, by row. Members' rows must stay until it is done or abandoned.

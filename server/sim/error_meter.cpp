@@ -99,9 +99,8 @@ std::uint64_t ErrorMeter::advance(const SlodTree& tree, const ClusterStore& stor
     if (!pulls_.done())
         return spent;
     finish(tree);
-    const std::uint64_t took = frame - pulls_.frame() + 1;
-    const std::uint64_t fitting = std::max<std::uint64_t>(at_once_ * pass_frames / took, 2);
-    at_once_ = std::uint32_t(std::min<std::uint64_t>({fitting, 2 * at_once_, most_draws}));
+    if (frame < pulls_.frame() + late_frames / 2)
+        at_once_ = std::min(2 * at_once_, most_draws); // the more at once, the less it costs to begin
     return spent;
 }
 

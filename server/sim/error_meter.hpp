@@ -27,8 +27,7 @@ public:
     static constexpr std::size_t window = 1024;       ///< samples that the estimate for all is made of
     static constexpr std::size_t region_window = 512; ///< and that for one region
     static constexpr std::uint32_t most_draws = 64;   ///< at once, for one pass over all particles
-    static constexpr std::uint64_t pass_frames = 16;  ///< that a pass is to take at most
-    static constexpr std::uint64_t late_frames = 48;  ///< after which it is given up
+    static constexpr std::uint64_t late_frames = 96;  ///< after which it is given up
     static constexpr std::size_t regions_at_once = 8;
 
     explicit ErrorMeter(std::uint64_t seed) : seed_(seed) {}
@@ -89,7 +88,7 @@ private:
     void take(const Drawn& drawn, const ErrorSample& sample, const SlodTree& tree);
 
     std::uint64_t seed_, draws_ = 0;
-    std::uint32_t at_once_ = 16; ///< draws for one pass, such that it takes pass_frames
+    std::uint32_t at_once_ = 16; ///< draws for one pass, as many as are done in time
     double constant_ = 0;
     std::size_t next_region_ = 0; ///< whose turn it is
     std::vector<Drawn> drawn_;
