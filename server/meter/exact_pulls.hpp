@@ -25,7 +25,7 @@ struct Probe {
 /// O(particles times probes). The result does not depend on how the work was cut.
 class ExactPulls {
 public:
-    static constexpr std::size_t most_probes = 256;
+    static constexpr std::size_t most_probes = 64;
 
     /// Pairs of one block of work, at least, where there are so many.
     static constexpr std::uint64_t block_pairs = 65'536;

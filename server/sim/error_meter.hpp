@@ -26,8 +26,8 @@ class ErrorMeter {
 public:
     static constexpr std::size_t window = 1024;       ///< samples that the estimate for all is made of
     static constexpr std::size_t region_window = 512; ///< and that for one region
-    static constexpr std::uint32_t most_draws = 64;   ///< at once, for one pass over all particles
-    static constexpr std::uint64_t late_frames = 96;  ///< after which it is given up
+    static constexpr std::uint32_t most_draws = ExactPulls::most_probes; ///< at once, for one pass
+    static constexpr std::uint64_t late_frames = 96;                     ///< after which it is given up
     static constexpr std::size_t regions_at_once = 8;
 
     explicit ErrorMeter(std::uint64_t seed) : seed_(seed) {}

@@ -33,7 +33,7 @@ const Snapshot& Simulation::step(const Request& request)
     s.run(Phase::Forces, [&] { s.evaluate_forces(); });  // force view           -> accelerations, tides
     s.run(Phase::CloseKick, [&] { s.close_kick(); });    // accelerations, tides -> velocities, maps
     s.run(Phase::Snapshot, [&] { s.observe(request); }); // clusters             -> snapshot
-    s.run(Phase::Meter, [&] { s.measure_errors(request.error_pairs); }); // clusters -> errors
+    s.run(Phase::Meter, [&] { s.sample(request); });     // clusters, members    -> errors
     if constexpr (validating)
         SLOD_ASSERT(s.problems().empty());
     return s.snapshot;

@@ -45,7 +45,7 @@ struct Simulation::State {
     void evaluate_forces();
     void evaluate_gravity();
     void observe(const Request& request);
-    void measure_errors(std::uint64_t pairs);
+    void sample(const Request& request); ///< Goes on measuring errors
     void compare(ErrorMeter::Drawn& drawn) const;
     Vector3d air_at(const Vector3d& x, const Vector3d& v) const;
     Vector3d air_by_cluster(std::size_t slot, const Vector3d& away, const Vector3d& v) const;

@@ -119,7 +119,7 @@ struct Fountain {
     std::size_t droplets() const { return per_frame * lifetime * settings.emitters.size(); }
 };
 
-/// The simulation of a fountain, and what its frames took.
+/// The simulation of a fountain, from when it is full, and what its frames took.
 class Slod {
 public:
     explicit Slod(const Fountain& fountain)
@@ -127,11 +127,8 @@ public:
                       {.isa = {}, .tick = [] {
                            return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
                        }})
-    {}
-
-    void fill(std::size_t frames)
     {
-        for (std::size_t frame = 0; frame < frames; ++frame)
+        for (std::size_t frame = 0; frame < fountain.lifetime + 32; ++frame)
             simulation_.step({});
     }
 
@@ -256,17 +253,25 @@ void print(const char* title, const Slod& slod, const Flat& flat)
     std::printf("\n");
 }
 
+/// Has each of `measured` run so many frames, by turns; calls after(round) at the end of each round.
+template <class After, class... Measured>
+void by_turns(const Options& options, const After& after, Measured&... measured)
+{
+    for (int round = 0; round < options.rounds; ++round) {
+        (measured.round(options.frames), ...);
+        after(round);
+    }
+}
+
+constexpr auto nothing_more = [](int) {};
+
 /// The flat loop and the simulation of a fountain without a ground, by turns.
 Json measure_open(const Options& options)
 {
     const Fountain fountain(options, Fountain::With::Nothing);
     Slod slod(fountain);
-    slod.fill(fountain.lifetime + 32);
     Flat flat(fountain);
-    for (int round = 0; round < options.rounds; ++round) {
-        flat.round(options.frames);
-        slod.round(options.frames);
-    }
+    by_turns(options, nothing_more, flat, slod);
     print("Fountain without a ground", slod, flat);
     return {
         {"flat_open_ms", median(flat.ms())},
@@ -284,14 +289,9 @@ Json measure_still(const Options& options)
 {
     const Fountain fountain(options, Fountain::With::Ground);
     Slod slod(fountain);
-    slod.fill(fountain.lifetime + 32);
     Flat flat(fountain);
     Triad triad(fountain.droplets());
-    for (int round = 0; round < options.rounds; ++round) {
-        flat.round(options.frames);
-        triad.round(options.frames);
-        slod.round(options.frames);
-    }
+    by_turns(options, nothing_more, flat, triad, slod);
     print("Fountain", slod, flat);
     return {
         {"particles", slod.counts().particles},
@@ -318,14 +318,12 @@ Json measure_turbulent(const Options& options, double still_ms)
     const Fountain fountain(options, Fountain::With::GroundAndTurbulence);
     const Turbulence turbulence(*fountain.settings.fields.of<Turbulence>(), {fountain.settings.seed});
     Slod slod(fountain);
-    slod.fill(fountain.lifetime + 32);
     Flat flat(fountain);
-    for (int round = 0; round < options.rounds; ++round) {
-        flat.round(options.frames);
-        slod.round(options.frames);
+    const auto ask_now_and_then = [&](int round) {
         if (round % 3 == 0)
             flat.ask(turbulence);
-    }
+    };
+    by_turns(options, ask_now_and_then, flat, slod);
     print("Fountain in eddies", slod, flat);
     const double same_function = still_ms + flat.asked_ms();
     std::printf("  flat loop %10.2f ms a frame with the simulation's own turbulence\n", same_function);

@@ -3,16 +3,16 @@
 
 namespace slod {
 
-void Simulation::State::measure_errors(std::uint64_t pairs)
+void Simulation::State::sample(const Request& request)
 {
-    if (pairs == 0)
+    if (request.error_pairs == 0)
         return;
     if (meter.idle()) {
         for (ErrorMeter::Drawn& drawn : meter.draw(tree, store, frame))
             compare(drawn);
         meter.begin(tree, store, frame, settings.gravity ? gravitational_constant : 0);
     }
-    snapshot.counts.error_pairs = meter.advance(tree, store, frame, pairs);
+    snapshot.counts.error_pairs = meter.advance(tree, store, frame, request.error_pairs);
 }
 
 /// What a member's cluster gives it, and what it should get but for the particles' attraction.
