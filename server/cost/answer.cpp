@@ -1,42 +1,32 @@
 #include "cost/answer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <cmath>
+
+#include "cost/formatted.hpp"
 
 namespace slod::cost {
 namespace {
 
-std::string line(const char* format, double value, const std::optional<Row>& row, const char* none)
+std::string line(const std::string& head, const std::optional<Row>& row, const char* none)
 {
-    std::array<char, 160> text{};
-    if (!row) {
-        std::snprintf(text.data(), text.size(), format, value);
-        return text.data() + std::string(none) + "\n";
-    }
-    std::snprintf(text.data(), text.size(), format, value);
-    std::array<char, 160> rest{};
-    std::snprintf(rest.data(), rest.size(), "%-12s %8.2f ms  %6.2f noise floors\n",
-                  row->setting.name().c_str(), row->ms_median, row->errors.largest());
-    return text.data() + std::string(rest.data());
+    if (!row)
+        return head + none + "\n";
+    return head + formatted("%s: %.2f ms, %.2f noise floors\n", row->setting.name().c_str(), row->ms_median,
+                            row->errors.largest());
+}
+
+template <class Accepts>
+std::optional<Row> fastest_where(const std::vector<Row>& rows, const Accepts& accepts)
+{
+    std::optional<Row> fastest;
+    for (const Row& row : rows)
+        if (accepts(row) && (!fastest || row.ms_median < fastest->ms_median))
+            fastest = row;
+    return fastest;
 }
 
 } // namespace
-
-std::vector<Row> pareto_front(const std::vector<Row>& rows, Motion motion)
-{
-    std::vector<Row> own;
-    for (const Row& row : rows)
-        if (row.setting.unclustered() || row.setting.motion == motion)
-            own.push_back(row);
-    std::stable_sort(own.begin(), own.end(),
-                     [](const Row& a, const Row& b) { return a.ms_median < b.ms_median; });
-    std::vector<Row> front;
-    for (const Row& row : own)
-        if (front.empty() || row.errors.largest() < front.back().errors.largest())
-            front.push_back(row);
-    return front;
-}
 
 std::optional<Row> best_within(const std::vector<Row>& rows, double ms)
 {
@@ -49,21 +39,25 @@ std::optional<Row> best_within(const std::vector<Row>& rows, double ms)
 
 std::optional<Row> fastest_within(const std::vector<Row>& rows, double error)
 {
-    std::optional<Row> fastest;
-    for (const Row& row : rows)
-        if (row.errors.largest() <= error && (!fastest || row.ms_median < fastest->ms_median))
-            fastest = row;
-    return fastest;
+    return fastest_where(rows, [&](const Row& row) { return row.errors.largest() <= error; });
 }
 
 std::string answer(const Sweep& sweep)
 {
     std::string text;
     for (const double rate : {30.0, 60.0, 120.0})
-        text += line("at %3.0f frames a second   ", rate, best_within(sweep.rows, 1000 / rate),
+        text += line(formatted("at %3.0f frames a second      ", rate), best_within(sweep.rows, 1000 / rate),
                      "none of these settings is fast enough");
     for (const double error : {1.0, 2.0, 5.0})
-        text += line("at an error of %1.0f        ", error, fastest_within(sweep.rows, error), "none");
+        text += line(formatted("within %1.0f noise floor%s       ", error, error > 1 ? "s" : " "),
+                     fastest_within(sweep.rows, error), "none of these settings");
+    if (std::none_of(sweep.rows.begin(), sweep.rows.end(),
+                     [](const Row& row) { return std::isfinite(row.force.median); }))
+        return text;
+    for (const double error : {0.01, 0.001})
+        text += line(formatted("accelerations to %3.1f %%      ", 100 * error),
+                     fastest_where(sweep.rows, [&](const Row& row) { return row.force.median <= error; }),
+                     "none of these settings");
     return text;
 }
 

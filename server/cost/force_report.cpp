@@ -1,21 +1,12 @@
 #include "cost/force_report.hpp"
 
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
 
 #include "core/number_text.hpp"
+#include "cost/formatted.hpp"
 
 namespace slod::cost {
 namespace {
-
-template <class... Values>
-std::string formatted(const char* format, Values... values)
-{
-    std::string text(std::size_t(std::snprintf(nullptr, 0, format, values...)), ' ');
-    std::snprintf(text.data(), text.size() + 1, format, values...);
-    return text;
-}
 
 /// A field of a table with commas between.
 std::string quoted(const std::string& text)

@@ -1,13 +1,11 @@
 #include "cost/report_files.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
-#include "cost/answer.hpp"
+#include "cost/formatted.hpp"
 #include "idl/gnuplot.hpp"
 
 namespace slod::cost {
@@ -17,48 +15,55 @@ using Json = nlohmann::ordered_json;
 
 constexpr double smallest_drawn = 1e-3; ///< the unclustered run has no error, which no logarithm shows
 
+std::string motion_name(const Row& row)
+{
+    return row.setting.unclustered()
+               ? "unclustered"
+               : std::string(names(row.setting.motion)[std::size_t(row.setting.motion)]);
+}
+
 Json json_of(const Row& row)
 {
-    return {{"motion", row.setting.unclustered()
-                           ? "unclustered"
-                           : names(row.setting.motion)[std::size_t(row.setting.motion)]},
-            {"max_cluster_size", row.setting.max_cluster_size},
-            {"ms_median", row.ms_median},
-            {"ms_p10", row.ms_p10},
-            {"ms_p90", row.ms_p90},
-            {"clusters", row.clusters},
-            {"error", row.errors.largest()},
-            {"error_position", row.errors.position},
-            {"error_velocity", row.errors.velocity},
-            {"error_density_coarse", row.errors.coarse},
-            {"error_density_fine", row.errors.fine},
-            {"median_displacement", row.median_displacement},
-            {"r10", row.r10},
-            {"r50", row.r50},
-            {"r90", row.r90},
-            {"momentum_drift", row.momentum_drift},
-            {"energy_change", row.energy_change}};
+    const Setting& full = row.in_full;
+    Json json = {
+        {"motion", motion_name(row)},
+        {"max_cluster_size", full.max_cluster_size},
+        {"clock", full.clock ? Json(*full.clock) : Json()},
+        {"opening", full.opening ? Json(*full.opening) : Json()},
+        {"steps", full.steps},
+        {"precision", full.precision ? Json(names(*full.precision)[std::size_t(*full.precision)]) : Json()},
+        {"error", row.errors.largest()},
+        {"error_position", row.errors.position},
+        {"error_velocity", row.errors.velocity},
+        {"error_density_coarse", row.errors.coarse},
+        {"error_density_fine", row.errors.fine}};
+    for_each_number(row, [&](const std::string& name, double number) { json[name] = number; });
+    return json;
+}
+
+/// A cell of a table with commas between; empty for what is not known.
+std::string cell(const Json& value)
+{
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    return text == "null" ? "" : text;
 }
 
 } // namespace
 
 std::string csv_text(const Sweep& sweep)
 {
-    std::ostringstream text;
+    std::string head, lines;
     for (const Row& row : sweep.rows) {
+        head.clear();
+        std::string line;
         const Json json = json_of(row);
-        if (&row == &sweep.rows.front()) {
-            for (const auto& [key, value] : json.items())
-                text << (key == "motion" ? "" : ",") << key;
-            text << '\n';
-        }
         for (const auto& [key, value] : json.items()) {
-            text << (key == "motion" ? "" : ",");
-            value.is_string() ? text << value.get<std::string>() : text << value;
+            head += (head.empty() ? "" : ",") + key;
+            line += (line.empty() ? "" : ",") + cell(value);
         }
-        text << '\n';
+        lines += line + '\n';
     }
-    return text.str();
+    return head + '\n' + lines;
 }
 
 std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
@@ -73,6 +78,7 @@ std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
                 {"threads", circumstances.threads},
                 {"particles", circumstances.particles},
                 {"frames", circumstances.frames},
+                {"reference_steps", reference_steps},
                 {"noise_floor",
                  {{"position", floor.position},
                   {"velocity", floor.velocity},
@@ -87,18 +93,19 @@ std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
 
 std::string table_text(const Sweep& sweep)
 {
+    std::size_t width = 0;
+    for (const Row& row : sweep.rows)
+        width = std::max(width, row.setting.name().size());
+    const int pad = int(width) + 1;
     std::string text =
-        "setting          ms   p10-p90       clusters  error  position velocity density  r50    displaced\n";
-    for (const Row& row : sweep.rows) {
-        std::array<char, 200> line{};
-        std::snprintf(line.data(), line.size(),
-                      "%-12s %7.2f %6.2f-%-7.2f %8llu  %6.2f %7.2f %8.2f %8.2f %7.3f %8.4f\n",
-                      row.setting.name().c_str(), row.ms_median, row.ms_p10, row.ms_p90,
-                      static_cast<unsigned long long>(row.clusters), row.errors.largest(),
-                      row.errors.position, row.errors.velocity, std::max(row.errors.coarse, row.errors.fine),
-                      row.r50, row.median_displacement);
-        text += line.data();
-    }
+        formatted("%-*s %8s %-15s %8s %6s %8s %8s %8s %9s %6s %9s\n", pad, "setting", "ms", "p10-p90",
+                  "clusters", "error", "position", "velocity", "density", "force", "r50", "displaced");
+    for (const Row& row : sweep.rows)
+        text += formatted("%-*s %8.2f %6.2f-%-8.2f %8.0f %6.2f %8.2f %8.2f %8.2f %9.2e %6.3f %9.4f\n", pad,
+                          row.setting.name().c_str(), row.ms_median, row.ms_p10, row.ms_p90, row.clusters,
+                          row.errors.largest(), row.errors.position, row.errors.velocity,
+                          std::max(row.errors.coarse, row.errors.fine), row.force.median, row.r50,
+                          row.median_displacement);
     return text;
 }
 

@@ -15,6 +15,7 @@
 #include "idl/gnuplot.hpp"
 #include "idl/option_checks.hpp"
 #include "idl/version.hpp"
+#include "scene/scene.hpp"
 
 namespace slod::cost {
 namespace {
@@ -97,7 +98,7 @@ int SceneCommand::run() const
     const Circumstances circumstances{.scene = scene.title,
                                       .version = std::string(version()),
                                       .machine = machine_name(),
-                                      .particles = sweep.rows.front().clusters,
+                                      .particles = sweep.particles,
                                       .frames = plan.frames,
                                       .threads = threads};
     write(folder_ / "cost.csv", csv_text(sweep));

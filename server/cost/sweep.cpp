@@ -1,51 +1,30 @@
 #include "cost/sweep.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
-#include "core/random.hpp"
 #include "cost/metrics.hpp"
 
 namespace slod::cost {
 namespace {
 
-/// A cloud with what is asked of it again and again.
-struct Cloud {
-    explicit Cloud(ParticleSet set)
-        : particles(std::move(set)), x(positions(particles)), v(velocities(particles))
-    {}
-
-    ParticleSet particles;
-    Points x, v;
-};
-
-/// As many particles, drawn with replacement.
-ParticleSet resample(const ParticleSet& particles, std::uint32_t draw)
-{
-    ParticleSet sample;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-        Random random(1, draw, i);
-        sample.push_back(particles[std::size_t(random.uniform() * double(particles.size()))]);
-    }
-    return sample;
-}
-
-Floor distances(const Cloud& a, const Cloud& b, double radius)
-{
-    return {.position = sliced_wasserstein(a.x, b.x),
-            .velocity = sliced_wasserstein(a.v, b.v),
-            .coarse = density_distance(a.x, b.x, radius / 4),
-            .fine = density_distance(a.x, b.x, radius / 16)};
-}
-
-double over(double distance, double floor)
-{
-    return distance == 0 ? 0 : distance / floor;
-}
+const Setting unclustered{.max_cluster_size = 1};
 
 double ratio(double a, double b)
 {
     return b > 0 ? a / b : 1;
+}
+
+/// As exact as it is worth to be. Random kicks are drawn by the step: with others it would be another seed.
+Setting reference_setting(const SimulationSettings& scene)
+{
+    Setting setting = unclustered;
+    setting.steps = scene.brownian ? 1 : reference_steps;
+    if (scene.gravity) {
+        const Opening opening = opening_of(*scene.gravity);
+        setting.opening = std::max(*scene.gravity.*opening.value * opening.finer, opening.least);
+    }
+    return setting;
 }
 
 class Sweeper {
@@ -53,80 +32,123 @@ public:
     Sweeper(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
             const Clock& clock, const Progress& progress)
         : scene_(scene), initial_(initial), plan_(plan), clock_(clock), progress_(progress),
-          particles_(initial(scene.seed)), runs_(double(1 + plan.seeds) + double(plan.settings.size()))
+          particles_(initial(scene.seed)), isolated_(is_isolated(scene, particles_)),
+          runs_(double(2 + plan.seeds) + double(plan.settings.size()))
     {}
 
     Sweep run()
     {
-        const Trial fine = trial({.max_cluster_size = 1}, scene_.seed, "unclustered");
-        const Cloud reference(fine.particles);
-        const double radius = std::max(rms_radius(reference.x), 1e-30);
-        Sweep sweep{.rows = {}, .floor = measure_floor(reference, radius)};
-        sweep.rows.push_back(row({.max_cluster_size = 1}, fine, reference, sweep.floor));
+        measure_floor();
+        add(unclustered);
         for (const Setting& setting : plan_.settings)
-            sweep.rows.push_back(
-                row(setting, trial(setting, scene_.seed, setting.name()), reference, sweep.floor));
-        return sweep;
+            add(setting);
+        for (int round = 0; round < plan_.rounds; ++round) {
+            const std::vector<Setting> settings = next_round(plan_, sweep_.rows, scene_, particles_);
+            runs_ += double(settings.size());
+            for (const Setting& setting : settings)
+                add(setting);
+        }
+        return std::move(sweep_);
     }
 
 private:
-    Trial trial(const Setting& setting, std::uint64_t seed, const std::string& name)
+    Trial trial(const Setting& setting, std::uint64_t seed, const std::string& name, bool measures_error)
     {
         SimulationSettings settings = with_setting(scene_, setting);
         settings.seed = seed;
         const auto tell = [&](int frame) { progress_(name, (done_ + double(frame) / plan_.frames) / runs_); };
         const bool own = seed == scene_.seed;
-        Trial outcome = run_trial(settings, own ? particles_ : initial_(seed), plan_.frames, clock_, tell);
+        Trial outcome = run_trial(settings, own ? particles_ : initial_(seed),
+                                  {plan_.frames, setting.steps, measures_error}, clock_, tell);
         done_ += 1;
         return outcome;
     }
 
-    Floor measure_floor(const Cloud& reference, double radius)
+    const Cloud& reference()
     {
-        Floor sum{.rms_radius = radius};
-        for (int k = 1; k <= plan_.seeds; ++k) {
-            const std::uint64_t seed = scene_.seed + std::uint64_t(k);
-            Cloud other(sum.resampled ? ParticleSet()
-                                      : trial({.max_cluster_size = 1}, seed,
-                                              "unclustered, seed " + std::to_string(seed))
-                                            .particles);
-            Floor apart = distances(reference, other, radius);
-            if (sum.resampled || apart.position == 0) { // no random number is in it
-                sum.resampled = true;
-                apart = distances(reference, Cloud(resample(reference.particles, std::uint32_t(k))), radius);
-            }
-            sum.position += apart.position / plan_.seeds;
-            sum.velocity += apart.velocity / plan_.seeds;
-            sum.coarse += apart.coarse / plan_.seeds;
-            sum.fine += apart.fine / plan_.seeds;
-        }
-        done_ = double(1 + plan_.seeds);
-        return sum;
+        if (!reference_)
+            reference_.emplace(trial(reference_setting(scene_), scene_.seed, "reference", false).particles);
+        return *reference_;
     }
 
-    Row row(const Setting& setting, const Trial& trial, const Cloud& reference, const Floor& floor) const
+    /// The scene's own seed without clusters: the first row, and what other seeds are compared with.
+    const Trial& unclustered_trial()
     {
-        const Cloud cloud(trial.particles);
-        const Floor apart = distances(reference, cloud, floor.rms_radius);
+        if (!unclustered_)
+            unclustered_ = trial(unclustered, scene_.seed, unclustered.name(), true);
+        return *unclustered_;
+    }
+
+    void measure_floor()
+    {
+        Floor& floor = sweep_.floor;
+        const Cloud own(unclustered_trial().particles);
+        floor.rms_radius = std::max(rms_radius(own.x), 1e-30);
+        for (int k = 1; k <= plan_.seeds; ++k)
+            floor += between_seeds(own, k) / plan_.seeds;
+    }
+
+    Distances between_seeds(const Cloud& own, int k)
+    {
+        Floor& floor = sweep_.floor;
+        const std::uint64_t seed = scene_.seed + std::uint64_t(k);
+        if (!floor.resampled) {
+            const std::string name = "unclustered, seed " + std::to_string(seed);
+            const Distances apart =
+                distances(own, Cloud(trial(unclustered, seed, name, false).particles), floor.rms_radius);
+            floor.resampled = apart.position == 0; // no random number is in it
+            if (!floor.resampled)
+                return apart;
+        }
+        return distances(own, Cloud(resample(own.particles, std::uint32_t(k))), floor.rms_radius);
+    }
+
+    void add(const Setting& setting)
+    {
+        Row row = measure(setting);
+        row.errors = in_floors(row.apart, sweep_.floor);
+        sweep_.rows.push_back(std::move(row));
+    }
+
+    Row measure(const Setting& setting)
+    {
+        const Cloud& wanted = reference();
+        sweep_.particles = wanted.particles.size();
+        const Trial run =
+            setting == unclustered ? unclustered_trial() : trial(setting, scene_.seed, setting.name(), true);
+        const Cloud cloud(run.particles);
         const auto radius = [&](double share) {
-            return ratio(lagrangian_radius(cloud.x, share), lagrangian_radius(reference.x, share));
+            return ratio(lagrangian_radius(cloud.x, share), lagrangian_radius(wanted.x, share));
         };
-        return {.setting = setting,
-                .ms_median = trial.ms_median,
-                .ms_p10 = trial.ms_p10,
-                .ms_p90 = trial.ms_p90,
-                .clusters = trial.clusters,
-                .errors = {.position = over(apart.position, floor.position),
-                           .velocity = over(apart.velocity, floor.velocity),
-                           .coarse = over(apart.coarse, floor.coarse),
-                           .fine = over(apart.fine, floor.fine)},
-                .median_displacement =
-                    median_displacement(reference.particles, cloud.particles) / floor.rms_radius,
+        const double rms = sweep_.floor.rms_radius;
+        const ErrorEstimate& force = run.force_error;
+        Row row{.setting = setting,
+                .in_full = in_full(setting, scene_),
+                .ms_median = run.ms_median,
+                .ms_p10 = run.ms_p10,
+                .ms_p90 = run.ms_p90,
+                .clusters = double(run.clusters),
+                .apart = distances(wanted, cloud, rms),
+                .errors = {},
+                .median_displacement = median_displacement(wanted.particles, cloud.particles) / rms,
                 .r10 = radius(0.1),
                 .r50 = radius(0.5),
                 .r90 = radius(0.9),
-                .momentum_drift = trial.momentum_drift,
-                .energy_change = trial.energy_change};
+                .force = {},
+                .drifts = {},
+                .phases = run.phases};
+        if (force.samples > 0)
+            row.force = {force.median.value, force.p90.value, force.p99.value, force.max};
+        if (isolated_)
+            row.drifts = drifts(start(), totals(cloud.particles, scene_));
+        return row;
+    }
+
+    const Totals& start()
+    {
+        if (!start_)
+            start_ = totals(particles_, scene_);
+        return *start_;
     }
 
     const SimulationSettings& scene_;
@@ -135,34 +157,16 @@ private:
     const Clock& clock_;
     const Progress& progress_;
     const ParticleSet particles_; ///< at the start, for the scene's own seed
-    double runs_;                 ///< in the plan
-    double done_ = 0;             ///< of them
+    const bool isolated_;
+    double runs_;     ///< in the plan, as far as it is known
+    double done_ = 0; ///< of them
+    std::optional<Cloud> reference_;
+    std::optional<Trial> unclustered_;
+    std::optional<Totals> start_; ///< of the particles
+    Sweep sweep_;
 };
 
 } // namespace
-
-SweepPlan SweepPlan::full()
-{
-    SweepPlan plan;
-    for (const Motion motion : {Motion::Flow, Motion::Stream, Motion::Rigid})
-        for (double size = 2; size <= 256; size *= 2)
-            plan.settings.push_back({motion, size});
-    return plan;
-}
-
-SweepPlan SweepPlan::quick()
-{
-    SweepPlan plan{.settings = {}, .frames = 100, .seeds = 2};
-    for (const Motion motion : {Motion::Flow, Motion::Rigid})
-        for (const double size : {4.0, 16.0, 64.0})
-            plan.settings.push_back({motion, size});
-    return plan;
-}
-
-double Errors::largest() const
-{
-    return std::max({position, velocity, coarse, fine});
-}
 
 Sweep run_sweep(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
                 const Clock& clock, const Progress& progress)
