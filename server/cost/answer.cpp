@@ -1,7 +1,6 @@
 #include "cost/answer.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cost/formatted.hpp"
 
@@ -12,7 +11,7 @@ std::string line(const std::string& head, const std::optional<Row>& row, const c
 {
     if (!row)
         return head + none + "\n";
-    return head + formatted("%s: %.2f ms, %.2f noise floors\n", row->setting.name().c_str(), row->ms_median,
+    return head + formatted("%s: %.3f ms, %.2f noise floors\n", row->setting.name().c_str(), row->ms_median,
                             row->errors.largest());
 }
 
@@ -52,7 +51,7 @@ std::string answer(const Sweep& sweep)
         text += line(formatted("within %1.0f noise floor%s       ", error, error > 1 ? "s" : " "),
                      fastest_within(sweep.rows, error), "none of these settings");
     if (std::none_of(sweep.rows.begin(), sweep.rows.end(),
-                     [](const Row& row) { return std::isfinite(row.force.median); }))
+                     [](const Row& row) { return row.force.median > 0; }))
         return text;
     for (const double error : {0.01, 0.001})
         text += line(formatted("accelerations to %3.1f %%      ", 100 * error),

@@ -101,7 +101,7 @@ std::string table_text(const Sweep& sweep)
         formatted("%-*s %8s %-15s %8s %6s %8s %8s %8s %9s %6s %9s\n", pad, "setting", "ms", "p10-p90",
                   "clusters", "error", "position", "velocity", "density", "force", "r50", "displaced");
     for (const Row& row : sweep.rows)
-        text += formatted("%-*s %8.2f %6.2f-%-8.2f %8.0f %6.2f %8.2f %8.2f %8.2f %9.2e %6.3f %9.4f\n", pad,
+        text += formatted("%-*s %8.3f %7.3f-%-7.3f %8.0f %6.2f %8.2f %8.2f %8.2f %9.2e %6.3f %9.4f\n", pad,
                           row.setting.name().c_str(), row.ms_median, row.ms_p10, row.ms_p90, row.clusters,
                           row.errors.largest(), row.errors.position, row.errors.velocity,
                           std::max(row.errors.coarse, row.errors.fine), row.force.median, row.r50,

@@ -1,23 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "cost/distances.hpp"
 #include "cost/drifts.hpp"
 #include "cost/setting.hpp"
-#include "sim/phase.hpp"
+#include "cost/trial.hpp"
 
 namespace slod::cost {
-
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Errors of accelerations, |a - exact| / |exact|, at a run's end; all NaN where nothing accelerates.
-struct AccelerationErrors {
-    double median = unknown, p90 = unknown, p99 = unknown, max = unknown;
-};
 
 /// The outcome for one setting.
 struct Row {

@@ -121,7 +121,6 @@ private:
             return ratio(lagrangian_radius(cloud.x, share), lagrangian_radius(wanted.x, share));
         };
         const double rms = sweep_.floor.rms_radius;
-        const ErrorEstimate& force = run.force_error;
         Row row{.setting = setting,
                 .in_full = in_full(setting, scene_),
                 .ms_median = run.ms_median,
@@ -134,11 +133,9 @@ private:
                 .r10 = radius(0.1),
                 .r50 = radius(0.5),
                 .r90 = radius(0.9),
-                .force = {},
+                .force = run.force,
                 .drifts = {},
                 .phases = run.phases};
-        if (force.samples > 0)
-            row.force = {force.median.value, force.p90.value, force.p99.value, force.max};
         if (isolated_)
             row.drifts = drifts(start(), totals(cloud.particles, scene_));
         return row;

@@ -2,20 +2,26 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include "cluster/particles.hpp"
-#include "meter/error_window.hpp"
 #include "sim/phase.hpp"
 #include "sim/settings.hpp"
 
 namespace slod::cost {
+
+/// Errors of members' accelerations, |a - exact| / |exact|; NaN where nobody is accelerated.
+struct AccelerationErrors {
+    double median = std::numeric_limits<double>::quiet_NaN();
+    double p90 = median, p99 = median, max = median;
+};
 
 /// How a run went and what came out. A frame is one of the scene's, of however many steps.
 struct Trial {
     double ms_median = 0, ms_p10 = 0, ms_p90 = 0; ///< of a frame's steps, wall time
     StepProfile phases;         ///< of a frame, means; what is measured between phases is in none of them
     std::uint64_t clusters = 0; ///< at the end
-    ErrorEstimate force_error;  ///< of the members' accelerations at the end
+    AccelerationErrors force;   ///< at the end
     ParticleSet particles;      ///< at the end, by id
 };
 

@@ -57,7 +57,7 @@ TEST(CostAnswer, NamesTheBestWithinATimeAndTheFastestWithinAnError)
     EXPECT_TRUE(fastest_within(rows, 1)->setting.unclustered());
     EXPECT_FALSE(fastest_within(rows, -1));
     const std::string text = answer({.rows = rows});
-    EXPECT_NE(text.find("at  30 frames a second      flow 4: 30.00 ms, 1.50"), std::string::npos) << text;
+    EXPECT_NE(text.find("at  30 frames a second      flow 4: 30.000 ms, 1.50"), std::string::npos) << text;
     EXPECT_NE(text.find("at 120 frames a second      none"), std::string::npos) << text;
     EXPECT_EQ(text.find("accelerations"), std::string::npos) << text;
     rows[1].force.median = 0.004;

@@ -77,6 +77,16 @@ TEST(CostSweep, AccelerationsAreOffByWhatClustersMiss)
     EXPECT_LE(sweep.rows[1].force.p99, sweep.rows[1].force.max);
 }
 
+TEST(CostSweep, WhatNothingAcceleratesOtherwiseThanExactlyHasNoError)
+{
+    SimulationSettings scene = test::quiet_settings();
+    scene.uniform_gravity.emplace();
+    const Sweep sweep = run_sweep(
+        scene, [](std::uint64_t seed) { return cloud(100, seed); },
+        {.settings = {{Motion::Flow, 8}}, .frames = 10, .seeds = 1, .rounds = 0}, ticking(), silent);
+    EXPECT_EQ(sweep.rows[1].force.max, 0);
+}
+
 // All pairs are symmetric but for the rounding of floats, 6e-8 of each pull, so momenta drift by no more than
 // that times some steps. Energy is kept to the order of (step / time of the closest pairs)^2, percents.
 TEST(CostSweep, WhatAnIsolatedSystemConservesIsFollowed)
