@@ -35,10 +35,18 @@ void write(const std::filesystem::path& file, const std::string& text)
         throw std::runtime_error("cannot write " + file.string());
 }
 
+/// Makes names of files absolute that start from the scene's folder.
+void find_from_anywhere(Scene& scene, const std::filesystem::path& folder)
+{
+    for (ColliderSettings& collider : scene.simulation.colliders)
+        if (!collider.file.empty())
+            collider.file = std::filesystem::absolute(folder / collider.file).lexically_normal().string();
+}
+
 } // namespace
 
 SceneCommand::SceneCommand(CLI::App& app)
-    : command_(app.add_subcommand("scene", "Sweep motion and cluster size on a scene"))
+    : command_(app.add_subcommand("scene", "Sweep motion, cluster size and what else costs time on a scene"))
 {
     command_->add_option("SCENE", scene_, "Scene file (TOML)")->option_text("FILE")->required();
     command_->add_option("--out", folder_, "Folder of cost.csv, cost.json, cost.png and cost.svg")
@@ -55,13 +63,46 @@ SceneCommand::SceneCommand(CLI::App& app)
         ->option_text("N");
     add_threads_option(*command_, threads_);
     command_->add_flag("--quick", quick_, "Fewer settings, frames and seeds: some minutes");
-    command_->footer("An error of 1 is what another seed differs by; below 2 is good, above 3 visible.\n"
-                     "Exit codes: 0 done, 1 failed, 2 wrong usage, scene or initial conditions.");
+    auto* const chosen =
+        command_
+            ->add_option(
+                "--write", chosen_,
+                "Scene file to write with the settings found best for --fps or for --error, and with "
+                "the controller off. Comments are kept, unless --set changes more than single values")
+            ->check(writable_file())
+            ->option_text("FILE");
+    auto* const rate = command_
+                           ->add_option("--fps", wish_.frame_rate_hz,
+                                        "With --write: the least error at so many frames a second")
+                           ->check(between(0.01, 10'000.0))
+                           ->option_text("N")
+                           ->needs(chosen);
+    command_->add_option("--error", wish_.error, "With --write: the fastest within so many noise floors")
+        ->check(between(0.0, 1e30))
+        ->option_text("E")
+        ->needs(chosen)
+        ->excludes(rate);
+    command_->footer(
+        "An error of 1 is what another seed differs by; below 2 is good, above 3 visible.\n"
+        "Exit codes: 0 done, 1 failed, or no setting is good enough to be written, 2 wrong usage, "
+        "scene or initial conditions.");
+}
+
+Problems SceneCommand::wrong_together() const
+{
+    if (!chosen_.empty() && !wish_.frame_rate_hz && !wish_.error)
+        return {"--write: for what? Add --fps N or --error E."};
+    return {};
 }
 
 int SceneCommand::run() const
 {
-    auto loaded = load_scene(scene_, settings_);
+    if (const Problems problems = wrong_together(); !problems.empty())
+        return complain(problems);
+    const auto text = read_scene_text(scene_);
+    if (const auto* problems = std::get_if<Problems>(&text))
+        return complain(*problems);
+    auto loaded = load_scene(std::get<SceneText>(text), settings_);
     if (const auto* problems = std::get_if<Problems>(&loaded))
         return complain(*problems);
     const Scene& scene = std::get<Scene>(loaded);
@@ -69,6 +110,17 @@ int SceneCommand::run() const
         return complain(std::get<Problems>(first));
     std::filesystem::create_directories(folder_);
 
+    SweepPlan plan = quick_ ? SweepPlan::quick() : SweepPlan::full();
+    if (frames_ > 0)
+        plan.frames = frames_;
+    const Sweep found = sweep(scene, plan);
+    const int reported = report(found, scene, plan.frames);
+    return chosen_.empty() ? reported
+                           : std::max(reported, write_choice(found.rows, std::get<SceneText>(text), scene));
+}
+
+Sweep SceneCommand::sweep(const Scene& scene, const SweepPlan& plan) const
+{
     const auto initial = [&](std::uint64_t seed) {
         Scene seeded = scene;
         seeded.simulation.seed = seed;
@@ -77,30 +129,30 @@ int SceneCommand::run() const
             throw std::runtime_error(problems->front());
         return std::get<InitialParticles>(std::move(particles)).particles;
     };
-    SweepPlan plan = quick_ ? SweepPlan::quick() : SweepPlan::full();
-    if (frames_ > 0)
-        plan.frames = frames_;
-    const int threads = team_size(threads_);
     const bool on_terminal = isatty(STDERR_FILENO) != 0;
     const double began = wall_milliseconds();
-    ThreadTeam team(threads);
-    Sweep sweep;
-    team.run([&] {
-        sweep = run_sweep(scene.simulation, initial, plan, wall_milliseconds,
+    Sweep found;
+    ThreadTeam(team_size(threads_)).run([&] {
+        found = run_sweep(scene.simulation, initial, plan, wall_milliseconds,
                           [&](const std::string& name, double share) {
                               if (on_terminal)
                                   show_progress(name, share, began);
                           });
     });
     if (on_terminal)
-        std::fprintf(stderr, "\r%60s\r", "");
+        std::fprintf(stderr, "\r%80s\r", "");
+    return found;
+}
 
+/// Files and what is printed; returns the exit code.
+int SceneCommand::report(const Sweep& sweep, const Scene& scene, int frames) const
+{
     const Circumstances circumstances{.scene = scene.title,
                                       .version = std::string(version()),
                                       .machine = machine_name(),
                                       .particles = sweep.particles,
-                                      .frames = plan.frames,
-                                      .threads = threads};
+                                      .frames = frames,
+                                      .threads = team_size(threads_)};
     write(folder_ / "cost.csv", csv_text(sweep));
     write(folder_ / "cost.json", json_text(sweep, circumstances));
     const std::string undrawn = run_gnuplot(plot_script(sweep, circumstances, folder_ / "cost"));
@@ -108,6 +160,20 @@ int SceneCommand::run() const
     if (!undrawn.empty())
         std::fprintf(stderr, "slod-cost: %s\n", undrawn.c_str());
     return undrawn.empty() ? 0 : failed;
+}
+
+int SceneCommand::write_choice(const std::vector<Row>& rows, const SceneText& text, const Scene& scene) const
+{
+    const auto row = choose(rows, wish_);
+    if (!row) {
+        std::fprintf(stderr, "slod-cost: no setting is good enough; %s is not written.\n", chosen_.c_str());
+        return failed;
+    }
+    Scene chosen = with_choice(scene, row->setting, wish_);
+    find_from_anywhere(chosen, text.folder);
+    write(chosen_, edited(text, chosen));
+    std::printf("%s: %s\n", chosen_.c_str(), row->setting.name().c_str());
+    return 0;
 }
 
 } // namespace slod::cost
