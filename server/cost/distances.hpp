@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "cluster/particles.hpp"
 #include "cost/metrics.hpp"
 
@@ -31,6 +33,19 @@ struct Floor : Distances {
     double rms_radius = 0;  ///< of the reference, scene length
     bool resampled = false; ///< the scene has no random numbers: bootstrap samples stand in for other seeds
 };
+
+/// Calls visit(name, number) for all that it holds.
+template <class SomeFloor, class Visitor>
+void for_each_number(SomeFloor& floor,
+                     Visitor&& visit) requires std::is_same_v<std::remove_const_t<SomeFloor>, Floor>
+{
+    visit("position", floor.position);
+    visit("velocity", floor.velocity);
+    visit("density_coarse", floor.coarse);
+    visit("density_fine", floor.fine);
+    visit("rms_radius", floor.rms_radius);
+    visit("resampled", floor.resampled);
+}
 
 /// Each in units of the floor. 1: as another seed; below 2 good, above 3 visible.
 Distances in_floors(const Distances& apart, const Distances& floor);

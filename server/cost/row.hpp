@@ -16,7 +16,7 @@ struct Row {
     Setting setting;
     Setting in_full;                              ///< with what the scene says
     double ms_median = 0, ms_p10 = 0, ms_p90 = 0; ///< of a frame of the scene
-    double clusters = 0;                          ///< at the end
+    double particles = 0, clusters = 0;           ///< at the end
     Distances apart;                              ///< from the reference
     Distances errors;                             ///< the same in noise floors
     double median_displacement = 0;   ///< of each particle, in rms radii; chaotic where there is gravity
@@ -29,11 +29,12 @@ struct Row {
 /// Calls visit(name, number) for all that is measured by itself, which is all but the errors in noise floors:
 /// the only list of these numbers.
 template <class SomeRow, class Visitor>
-void for_each_number(SomeRow& row, Visitor&& visit)
+void for_each_number(SomeRow& row, Visitor&& visit) requires std::is_same_v<std::remove_const_t<SomeRow>, Row>
 {
     visit("ms_median", row.ms_median);
     visit("ms_p10", row.ms_p10);
     visit("ms_p90", row.ms_p90);
+    visit("particles", row.particles);
     visit("clusters", row.clusters);
     visit("distance_position", row.apart.position);
     visit("distance_velocity", row.apart.velocity);

@@ -10,12 +10,14 @@
 #include "core/parallel.hpp"
 #include "cost/answer.hpp"
 #include "cost/command.hpp"
+#include "cost/finished_runs.hpp"
 #include "cost/report_files.hpp"
 #include "cost/sweep.hpp"
 #include "idl/gnuplot.hpp"
 #include "idl/option_checks.hpp"
 #include "idl/version.hpp"
 #include "scene/scene.hpp"
+#include "simd/kernels.hpp"
 
 namespace slod::cost {
 namespace {
@@ -63,6 +65,10 @@ SceneCommand::SceneCommand(CLI::App& app)
         ->option_text("N");
     add_threads_option(*command_, threads_);
     command_->add_flag("--quick", quick_, "Fewer settings, frames and seeds: some minutes");
+    command_->add_flag(
+        "--fresh", fresh_,
+        "Repeat what was finished before; without it, runs are taken from runs.jsonl in the folder "
+        "where scene, frames, threads, version and machine are the same");
     auto* const chosen =
         command_
             ->add_option(
@@ -106,20 +112,29 @@ int SceneCommand::run() const
     if (const auto* problems = std::get_if<Problems>(&loaded))
         return complain(*problems);
     const Scene& scene = std::get<Scene>(loaded);
-    if (const auto first = load_initial(scene, input_); std::holds_alternative<Problems>(first))
-        return complain(std::get<Problems>(first));
+    const auto first = load_initial(scene, input_);
+    if (const auto* problems = std::get_if<Problems>(&first))
+        return complain(*problems);
     std::filesystem::create_directories(folder_);
 
     SweepPlan plan = quick_ ? SweepPlan::quick() : SweepPlan::full();
     if (frames_ > 0)
         plan.frames = frames_;
-    const Sweep found = sweep(scene, plan);
+    const auto& particles = std::get<InitialParticles>(first).particles;
+    const FinishedRuns::Json circumstances = {{"scene", fingerprint(scene, particles)},
+                                              {"frames", plan.frames},
+                                              {"threads", team_size(threads_)},
+                                              {"version", std::string(version())},
+                                              {"machine", machine_name()},
+                                              {"isa", simd::kernels().name}};
+    FinishedRuns finished(folder_ / "runs.jsonl", circumstances, fresh_);
+    const Sweep found = sweep(scene, plan, finished);
     const int reported = report(found, scene, plan.frames);
     return chosen_.empty() ? reported
                            : std::max(reported, write_choice(found.rows, std::get<SceneText>(text), scene));
 }
 
-Sweep SceneCommand::sweep(const Scene& scene, const SweepPlan& plan) const
+Sweep SceneCommand::sweep(const Scene& scene, const SweepPlan& plan, FinishedRuns& finished) const
 {
     const auto initial = [&](std::uint64_t seed) {
         Scene seeded = scene;
@@ -133,14 +148,17 @@ Sweep SceneCommand::sweep(const Scene& scene, const SweepPlan& plan) const
     const double began = wall_milliseconds();
     Sweep found;
     ThreadTeam(team_size(threads_)).run([&] {
-        found = run_sweep(scene.simulation, initial, plan, wall_milliseconds,
-                          [&](const std::string& name, double share) {
-                              if (on_terminal)
-                                  show_progress(name, share, began);
-                          });
+        const auto show = [&](const std::string& name, double share) {
+            if (on_terminal)
+                show_progress(name, share, began);
+        };
+        found = run_sweep(scene.simulation, initial, plan, wall_milliseconds, show, finished);
     });
     if (on_terminal)
         std::fprintf(stderr, "\r%80s\r", "");
+    if (found.known > 0)
+        std::fprintf(stderr, "slod-cost: %d of %d runs were finished before, in %s; --fresh repeats them.\n",
+                     found.known, found.runs, (folder_ / "runs.jsonl").c_str());
     return found;
 }
 
@@ -150,7 +168,7 @@ int SceneCommand::report(const Sweep& sweep, const Scene& scene, int frames) con
     const Circumstances circumstances{.scene = scene.title,
                                       .version = std::string(version()),
                                       .machine = machine_name(),
-                                      .particles = sweep.particles,
+                                      .particles = std::uint64_t(sweep.rows.front().particles),
                                       .frames = frames,
                                       .threads = team_size(threads_)};
     write(folder_ / "cost.csv", csv_text(sweep));

@@ -21,14 +21,14 @@ public:
 
 private:
     Problems wrong_together() const;
-    Sweep sweep(const Scene& scene, const SweepPlan& plan) const;
+    Sweep sweep(const Scene& scene, const SweepPlan& plan, FinishedRuns& finished) const;
     int report(const Sweep& sweep, const Scene& scene, int frames) const;
     int write_choice(const std::vector<Row>& rows, const SceneText& text, const Scene& scene) const;
 
     CLI::App* command_;
     std::filesystem::path scene_, input_, folder_ = "cost";
     std::vector<std::string> settings_;
-    bool quick_ = false;
+    bool quick_ = false, fresh_ = false;
     int frames_ = 0;
     int threads_ = 0;
     std::filesystem::path chosen_; ///< the scene file to write

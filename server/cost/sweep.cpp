@@ -1,6 +1,7 @@
 #include "cost/sweep.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "cost/metrics.hpp"
@@ -27,12 +28,37 @@ Setting reference_setting(const SimulationSettings& scene)
     return setting;
 }
 
+/// The numbers by their names; what is not known is null.
+template <class Outcome>
+FinishedRuns::Json numbers_of(const Outcome& outcome)
+{
+    FinishedRuns::Json json;
+    for_each_number(outcome, [&](const std::string& name, const auto& number) { json[name] = number; });
+    return json;
+}
+
+/// What numbers_of() wrote; none where it is anything else.
+template <class Outcome>
+std::optional<Outcome> read_numbers(const FinishedRuns::Json& json)
+{
+    Outcome outcome;
+    bool complete = true;
+    for_each_number(outcome, [&]<class Number>(const std::string& name, Number& number) {
+        const auto found = json.find(name);
+        complete = complete && found != json.end() && (found->is_primitive() && !found->is_string());
+        if (complete)
+            number =
+                found->is_null() ? Number(std::numeric_limits<double>::quiet_NaN()) : found->get<Number>();
+    });
+    return complete ? std::optional(outcome) : std::nullopt;
+}
+
 class Sweeper {
 public:
     Sweeper(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
-            const Clock& clock, const Progress& progress)
+            const Clock& clock, const Progress& progress, FinishedRuns& finished)
         : scene_(scene), initial_(initial), plan_(plan), clock_(clock), progress_(progress),
-          particles_(initial(scene.seed)), isolated_(is_isolated(scene, particles_)),
+          finished_(finished), particles_(initial(scene.seed)), isolated_(is_isolated(scene, particles_)),
           runs_(double(2 + plan.seeds) + double(plan.settings.size()))
     {}
 
@@ -79,41 +105,79 @@ private:
         return *unclustered_;
     }
 
+    const Cloud& own()
+    {
+        if (!own_)
+            own_.emplace(unclustered_trial().particles);
+        return *own_;
+    }
+
     void measure_floor()
     {
         Floor& floor = sweep_.floor;
-        const Cloud own(unclustered_trial().particles);
-        floor.rms_radius = std::max(rms_radius(own.x), 1e-30);
-        for (int k = 1; k <= plan_.seeds; ++k)
-            floor += between_seeds(own, k) / plan_.seeds;
+        for (int k = 1; k <= plan_.seeds; ++k) {
+            const std::string run = "seed " + std::to_string(k);
+            std::optional<Floor> apart = recall<Floor>(run);
+            if (!apart) {
+                apart = between_seeds(k);
+                remember(run, *apart);
+            }
+            floor += *apart / plan_.seeds;
+            floor.rms_radius = apart->rms_radius;
+            floor.resampled = apart->resampled;
+        }
     }
 
-    Distances between_seeds(const Cloud& own, int k)
+    Floor between_seeds(int k)
     {
-        Floor& floor = sweep_.floor;
-        const std::uint64_t seed = scene_.seed + std::uint64_t(k);
-        if (!floor.resampled) {
-            const std::string name = "unclustered, seed " + std::to_string(seed);
-            const Distances apart =
-                distances(own, Cloud(trial(unclustered, seed, name, false).particles), floor.rms_radius);
-            floor.resampled = apart.position == 0; // no random number is in it
-            if (!floor.resampled)
-                return apart;
+        Floor apart;
+        apart.rms_radius = std::max(rms_radius(own().x), 1e-30);
+        apart.resampled = sweep_.floor.resampled;
+        const auto measure = [&](ParticleSet other) {
+            static_cast<Distances&>(apart) = distances(own(), Cloud(std::move(other)), apart.rms_radius);
+        };
+        if (!apart.resampled) {
+            const std::uint64_t seed = scene_.seed + std::uint64_t(k);
+            measure(trial(unclustered, seed, "unclustered, seed " + std::to_string(seed), false).particles);
+            apart.resampled = apart.position == 0; // no random number is in it
         }
-        return distances(own, Cloud(resample(own.particles, std::uint32_t(k))), floor.rms_radius);
+        if (apart.resampled)
+            measure(resample(own().particles, std::uint32_t(k)));
+        return apart;
     }
 
     void add(const Setting& setting)
     {
-        Row row = measure(setting);
-        row.errors = in_floors(row.apart, sweep_.floor);
-        sweep_.rows.push_back(std::move(row));
+        const Setting full = in_full(setting, scene_);
+        std::optional<Row> row = recall<Row>(full.name());
+        sweep_.runs += 1;
+        sweep_.known += row ? 1 : 0;
+        if (!row) {
+            row = measure(setting);
+            remember(full.name(), *row);
+        }
+        row->setting = setting;
+        row->in_full = full;
+        row->errors = in_floors(row->apart, sweep_.floor);
+        sweep_.rows.push_back(std::move(*row));
+    }
+
+    template <class Outcome>
+    std::optional<Outcome> recall(const std::string& run)
+    {
+        const FinishedRuns::Json* const known = finished_.find(run);
+        return known == nullptr ? std::nullopt : read_numbers<Outcome>(*known);
+    }
+
+    template <class Outcome>
+    void remember(const std::string& run, const Outcome& outcome)
+    {
+        finished_.add(run, numbers_of(outcome));
     }
 
     Row measure(const Setting& setting)
     {
         const Cloud& wanted = reference();
-        sweep_.particles = wanted.particles.size();
         const Trial run =
             setting == unclustered ? unclustered_trial() : trial(setting, scene_.seed, setting.name(), true);
         const Cloud cloud(run.particles);
@@ -121,11 +185,12 @@ private:
             return ratio(lagrangian_radius(cloud.x, share), lagrangian_radius(wanted.x, share));
         };
         const double rms = sweep_.floor.rms_radius;
-        Row row{.setting = setting,
-                .in_full = in_full(setting, scene_),
+        Row row{.setting = {},
+                .in_full = {},
                 .ms_median = run.ms_median,
                 .ms_p10 = run.ms_p10,
                 .ms_p90 = run.ms_p90,
+                .particles = double(run.particles.size()),
                 .clusters = double(run.clusters),
                 .apart = distances(wanted, cloud, rms),
                 .errors = {},
@@ -153,12 +218,14 @@ private:
     const SweepPlan& plan_;
     const Clock& clock_;
     const Progress& progress_;
+    FinishedRuns& finished_;
     const ParticleSet particles_; ///< at the start, for the scene's own seed
     const bool isolated_;
     double runs_;     ///< in the plan, as far as it is known
     double done_ = 0; ///< of them
     std::optional<Cloud> reference_;
     std::optional<Trial> unclustered_;
+    std::optional<Cloud> own_;    ///< at the end of that
     std::optional<Totals> start_; ///< of the particles
     Sweep sweep_;
 };
@@ -166,9 +233,9 @@ private:
 } // namespace
 
 Sweep run_sweep(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
-                const Clock& clock, const Progress& progress)
+                const Clock& clock, const Progress& progress, FinishedRuns& finished)
 {
-    return Sweeper(scene, initial, plan, clock, progress).run();
+    return Sweeper(scene, initial, plan, clock, progress, finished).run();
 }
 
 } // namespace slod::cost

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cost/finished_runs.hpp"
 #include "cost/sweep_plan.hpp"
 #include "cost/trial.hpp"
 
@@ -15,7 +16,8 @@ namespace slod::cost {
 struct Sweep {
     std::vector<Row> rows{}; ///< the unclustered one first
     Floor floor{};
-    std::uint64_t particles = 0; ///< of the reference at its end
+    int runs = 0;  ///< that it took, references and other seeds apart
+    int known = 0; ///< of them: finished before
 };
 
 /// Told of what is going on: the name of the run, and the share of the whole that is done, in [0, 1].
@@ -24,8 +26,9 @@ using Progress = std::function<void(const std::string&, double)>;
 /// Loads the scene's particles for a seed.
 using Initial = std::function<ParticleSet(std::uint64_t seed)>;
 
-/// Runs the plan. `scene` must have no problems(). Call it inside ThreadTeam::run.
+/// Runs the plan, but for the runs that are finished, and adds what it runs to them. The reference is run
+/// once if any run is left. `scene` must have no problems(). Call it inside ThreadTeam::run.
 Sweep run_sweep(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan,
-                const Clock& clock, const Progress& progress);
+                const Clock& clock, const Progress& progress, FinishedRuns& finished);
 
 } // namespace slod::cost

@@ -25,6 +25,13 @@ SimulationSettings attracting()
     return scene;
 }
 
+/// Without any finished runs.
+Sweep sweep_anew(const SimulationSettings& scene, const Initial& initial, const SweepPlan& plan)
+{
+    FinishedRuns none;
+    return run_sweep(scene, initial, plan, ticking(), silent, none);
+}
+
 ParticleSet cloud(std::uint32_t count, std::uint64_t seed)
 {
     ParticleSet particles;
@@ -35,8 +42,8 @@ ParticleSet cloud(std::uint32_t count, std::uint64_t seed)
 /// A cloud in its own gravity.
 Sweep small_sweep(const SweepPlan& plan)
 {
-    return run_sweep(
-        attracting(), [](std::uint64_t seed) { return cloud(600, seed); }, plan, ticking(), silent);
+    return sweep_anew(
+        attracting(), [](std::uint64_t seed) { return cloud(600, seed); }, plan);
 }
 
 const SweepPlan two_motions{
@@ -54,7 +61,7 @@ TEST(CostSweep, TheUnclusteredRunComesFirstAndIsNearTheReference)
     EXPECT_EQ(sweep.rows[0].clusters, 600);
     EXPECT_FALSE(sweep.floor.resampled);
     EXPECT_GT(sweep.floor.position, 0);
-    EXPECT_EQ(sweep.particles, 600U);
+    EXPECT_EQ(sweep.rows[0].particles, 600);
 }
 
 TEST(CostSweep, RigidClustersAreFartherOffThanThoseThatFlow)
@@ -81,9 +88,8 @@ TEST(CostSweep, WhatNothingAcceleratesOtherwiseThanExactlyHasNoError)
 {
     SimulationSettings scene = test::quiet_settings();
     scene.uniform_gravity.emplace();
-    const Sweep sweep = run_sweep(
-        scene, [](std::uint64_t seed) { return cloud(100, seed); },
-        {.settings = {{Motion::Flow, 8}}, .frames = 10, .seeds = 1, .rounds = 0}, ticking(), silent);
+    const Sweep sweep = sweep_anew(scene, [](std::uint64_t seed) { return cloud(100, seed); },
+                                   {.settings = {{Motion::Flow, 8}}, .frames = 10, .seeds = 1, .rounds = 0});
     EXPECT_EQ(sweep.rows[1].force.max, 0);
 }
 
@@ -103,9 +109,8 @@ TEST(CostSweep, WhatIsNotConservedHasNoDrift)
     SimulationSettings scene = attracting();
     scene.uniform_wind.emplace();
     scene.linear_drag.emplace();
-    const Sweep sweep = run_sweep(
-        scene, [](std::uint64_t seed) { return cloud(100, seed); }, {.frames = 10, .seeds = 1, .rounds = 0},
-        ticking(), silent);
+    const Sweep sweep = sweep_anew(scene, [](std::uint64_t seed) { return cloud(100, seed); },
+                                   {.frames = 10, .seeds = 1, .rounds = 0});
     EXPECT_TRUE(std::isnan(sweep.rows[0].drifts.energy));
     EXPECT_TRUE(std::isnan(sweep.rows[0].drifts.momentum));
 }
@@ -147,9 +152,8 @@ TEST(CostSweep, ABrokenRunIsFlagged)
 
 TEST(CostSweep, AFixedCloudHasItsFloorFromBootstrapSamples)
 {
-    const Sweep sweep = run_sweep(
-        attracting(), [](std::uint64_t) { return cloud(200, 1); }, {.frames = 10, .seeds = 2, .rounds = 0},
-        ticking(), silent);
+    const Sweep sweep = sweep_anew(attracting(), [](std::uint64_t) { return cloud(200, 1); },
+                                   {.frames = 10, .seeds = 2, .rounds = 0});
     EXPECT_TRUE(sweep.floor.resampled);
     EXPECT_GT(sweep.floor.position, 0);
 }
