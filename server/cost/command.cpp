@@ -3,12 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <thread>
 #include <unistd.h>
 
 #include "idl/option_checks.hpp"
 
 namespace slod::cost {
+namespace {
+
+/// ", " and what the system calls the processor; nothing where it does not say.
+std::string processor_name()
+{
+    std::ifstream stream("/proc/cpuinfo");
+    for (std::string line; std::getline(stream, line);)
+        if (const auto colon = line.find(": "); line.starts_with("model name") && colon != std::string::npos)
+            return ", " + line.substr(colon + 2);
+    return "";
+}
+
+} // namespace
 
 int complain(const Problems& problems)
 {
@@ -34,7 +48,7 @@ std::string machine_name()
     std::array<char, 65> host{};
     gethostname(host.data(), host.size() - 1);
     return std::string(host.data()) + ", " + std::to_string(std::thread::hardware_concurrency()) +
-           " processors";
+           " processors" + processor_name();
 }
 
 } // namespace slod::cost

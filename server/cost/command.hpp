@@ -18,6 +18,6 @@ int complain(const Problems& problems);
 int team_size(int threads);
 void add_threads_option(CLI::App& command, int& threads);
 
-std::string machine_name(); ///< host and number of processors
+std::string machine_name(); ///< host, number and name of processors
 
 } // namespace slod::cost

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <unistd.h>
 #include <variant>
@@ -11,6 +12,7 @@
 #include "cost/answer.hpp"
 #include "cost/command.hpp"
 #include "cost/finished_runs.hpp"
+#include "cost/html_page.hpp"
 #include "cost/report_files.hpp"
 #include "cost/sweep.hpp"
 #include "idl/gnuplot.hpp"
@@ -37,6 +39,20 @@ void write(const std::filesystem::path& file, const std::string& text)
         throw std::runtime_error("cannot write " + file.string());
 }
 
+std::string content(const std::filesystem::path& file)
+{
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A scene's text with what was set over it, as remarks.
+std::string with_overrides(std::string text, const std::vector<std::string>& overrides)
+{
+    for (const std::string& override : overrides)
+        text += "\n# --set " + override;
+    return text;
+}
+
 /// Makes names of files absolute that start from the scene's folder.
 void find_from_anywhere(Scene& scene, const std::filesystem::path& folder)
 {
@@ -51,7 +67,10 @@ SceneCommand::SceneCommand(CLI::App& app)
     : command_(app.add_subcommand("scene", "Sweep motion, cluster size and what else costs time on a scene"))
 {
     command_->add_option("SCENE", scene_, "Scene file (TOML)")->option_text("FILE")->required();
-    command_->add_option("--out", folder_, "Folder of cost.csv, cost.json, cost.png and cost.svg")
+    command_
+        ->add_option("--out", folder_,
+                     "Folder of cost.html, with all in one page, cost.csv, cost.json, cost.png, cost.svg and "
+                     "runs.jsonl")
         ->check(writable_folder())
         ->option_text("FOLDER");
     command_->add_option("--input", input_, "Initial conditions, instead of the scene's own")
@@ -129,7 +148,7 @@ int SceneCommand::run() const
                                               {"isa", simd::kernels().name}};
     FinishedRuns finished(folder_ / "runs.jsonl", circumstances, fresh_);
     const Sweep found = sweep(scene, plan, finished);
-    const int reported = report(found, scene, plan.frames);
+    const int reported = report(found, scene, std::get<SceneText>(text).text, plan.frames);
     return chosen_.empty() ? reported
                            : std::max(reported, write_choice(found.rows, std::get<SceneText>(text), scene));
 }
@@ -163,7 +182,7 @@ Sweep SceneCommand::sweep(const Scene& scene, const SweepPlan& plan, FinishedRun
 }
 
 /// Files and what is printed; returns the exit code.
-int SceneCommand::report(const Sweep& sweep, const Scene& scene, int frames) const
+int SceneCommand::report(const Sweep& sweep, const Scene& scene, const std::string& text, int frames) const
 {
     const Circumstances circumstances{.scene = scene.title,
                                       .version = std::string(version()),
@@ -174,6 +193,9 @@ int SceneCommand::report(const Sweep& sweep, const Scene& scene, int frames) con
     write(folder_ / "cost.csv", csv_text(sweep));
     write(folder_ / "cost.json", json_text(sweep, circumstances));
     const std::string undrawn = run_gnuplot(plot_script(sweep, circumstances, folder_ / "cost"));
+    write(folder_ / "cost.html",
+          html_page(sweep, circumstances, undrawn.empty() ? content(folder_ / "cost.svg") : "",
+                    with_overrides(text, settings_)));
     std::printf("%s\n%s", table_text(sweep).c_str(), answer(sweep).c_str());
     if (!undrawn.empty())
         std::fprintf(stderr, "slod-cost: %s\n", undrawn.c_str());

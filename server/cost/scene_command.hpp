@@ -22,7 +22,7 @@ public:
 private:
     Problems wrong_together() const;
     Sweep sweep(const Scene& scene, const SweepPlan& plan, FinishedRuns& finished) const;
-    int report(const Sweep& sweep, const Scene& scene, int frames) const;
+    int report(const Sweep& sweep, const Scene& scene, const std::string& text, int frames) const;
     int write_choice(const std::vector<Row>& rows, const SceneText& text, const Scene& scene) const;
 
     CLI::App* command_;
