@@ -5,12 +5,12 @@
 // die as are born.
 //
 // The simulation runs the scene as its users do: at 64 droplets per cluster, with all that it keeps for each
-// droplet (an id, its own time of death) and each cluster. The flat loop (flat_fountain.hpp) is as fast as we
-// can make it, and does less: single precision, no ids, deaths for nothing by a ring of batches, births by a
-// hash, a bounce to first order, arithmetic fused and in whole registers of the fastest instruction set. It
-// should be as fast as memory or cache, which a STREAM triad over as many bytes shows: flat_gb_per_s and
-// triad_gb_per_s. The triad's is the lower one where lines are read before they are overwritten, which STREAM
-// does not count. Both have the same team of threads.
+// droplet (an id, its own time of death) and each cluster. The flat loop (server/cost/flat_fountain.hpp) is
+// as fast as we can make it, and does less: single precision, no ids, deaths for nothing by a ring of
+// batches, births by a hash, a bounce to first order, arithmetic fused and in whole registers of the fastest
+// instruction set. It should be as fast as memory or cache, which a STREAM triad over as many bytes shows:
+// flat_gb_per_s and triad_gb_per_s. The triad's is the lower one where lines are read before they are
+// overwritten, which STREAM does not count. Both have the same team of threads.
 //
 // The second part leaves out the ground: what is left is the cost of births, deaths and flight. The third
 // adds the turbulence of config/scenes/turbulence.toml, with that scene's [motion]. The flat loop sums the
@@ -20,8 +20,6 @@
 //
 // Frames of both alternate in rounds, so that what disturbs disturbs both. Figures are medians of the rounds'
 // means; spreads are half the distance of their quartiles, as a share of the median.
-
-#include "bench/flat_fountain.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -36,6 +34,7 @@
 
 #include "core/aligned.hpp"
 #include "core/parallel.hpp"
+#include "cost/flat_fountain.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 #include "simd/kernels.hpp"
@@ -97,7 +96,7 @@ struct Fountain {
         lifetime = std::size_t(options.lifetime / settings.time.step + 0.5);
         const std::size_t streams = settings.emitters.size();
         const std::size_t least = (options.particles + streams * lifetime - 1) / (streams * lifetime);
-        per_frame = block_count(least, bench::flat_lanes) * bench::flat_lanes;
+        per_frame = block_count(least, cost::flat_lanes) * cost::flat_lanes;
         for (EmitterSettings& emitter : settings.emitters) {
             emitter.start = 0;
             emitter.lifetime = options.lifetime;
@@ -200,13 +199,13 @@ public:
     double asked_ms() const { return median(asked_ms_); }
     double gb_per_s() const
     {
-        return bench::FlatFountain::bytes_per_move * double(flat_.alive()) / median(ms_) * 1e-6;
+        return cost::FlatFountain::bytes_per_move * double(flat_.alive()) / median(ms_) * 1e-6;
     }
 
 private:
     static constexpr std::size_t block = 4096;
 
-    bench::FlatFountain flat_;
+    cost::FlatFountain flat_;
     std::size_t lifetime_;
     std::vector<double> ms_, asked_ms_;
 };
@@ -221,7 +220,7 @@ public:
         const Clock::time_point start = Clock::now();
         for (int frame = 0; frame < frames; ++frame)
             for_each_block(a_.size(), 8192, [&](std::size_t first, std::size_t last) {
-                bench::flat_kernels(simd::kernels().name).triad(a_.data(), b_.data(), c_.data(), first, last);
+                cost::flat_kernels(simd::kernels().name).triad(a_.data(), b_.data(), c_.data(), first, last);
             });
         ms_.push_back(milliseconds_since(start) / frames);
     }

@@ -1,4 +1,4 @@
-#include "bench/flat_fountain.hpp"
+#include "cost/flat_fountain.hpp"
 
 #include <numbers>
 
@@ -9,7 +9,7 @@
 #include "core/portable_math.hpp"
 #include "effects/solid.hpp"
 
-namespace slod::bench {
+namespace slod::cost {
 
 namespace baseline {
 extern const FlatKernels table;
@@ -160,4 +160,4 @@ Vector3d FlatFountain::velocity(std::size_t droplet) const
     return {arrays_[3][droplet], arrays_[4][droplet], arrays_[5][droplet]};
 }
 
-} // namespace slod::bench
+} // namespace slod::cost

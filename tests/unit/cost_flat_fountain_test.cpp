@@ -1,5 +1,3 @@
-#include "bench/flat_fountain.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.hpp"
+#include "cost/flat_fountain.hpp"
 #include "simd/kernels.hpp"
 
-namespace slod::bench {
+namespace slod::cost {
 namespace {
 
 constexpr std::size_t per_frame = 4 * flat_lanes, lifetime = 160;
@@ -201,4 +200,4 @@ INSTANTIATE_TEST_SUITE_P(Isas, FlatFountainOf, testing::ValuesIn(isas()),
                          [](const auto& isa) { return std::string(isa.param); });
 
 } // namespace
-} // namespace slod::bench
+} // namespace slod::cost

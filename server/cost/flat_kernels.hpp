@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace slod::bench {
+namespace slod::cost {
 
 /// Droplets as a loop without clusters keeps them: an array per coordinate. Lengths in m, times in s.
 struct FlatDroplets {
@@ -57,4 +57,4 @@ struct FlatKernels {
     void (*triad)(float* a, const float* b, const float* c, std::size_t first, std::size_t last);
 };
 
-} // namespace slod::bench
+} // namespace slod::cost

@@ -2,9 +2,9 @@
 // its registers, includes this, and has its own -march. As in simd/gravity_kernels.inl, lanes are targets and
 // no inline function of another header is called.
 
-#include "bench/flat_kernels.hpp"
+#include "cost/flat_kernels.hpp"
 
-namespace slod::bench::SLOD_ISA {
+namespace slod::cost::SLOD_ISA {
 namespace {
 
 typedef float Lanes __attribute__((vector_size(register_bytes)));
@@ -171,4 +171,4 @@ void triad(float* a, const float* b, const float* c, std::size_t first, std::siz
 extern const FlatKernels table;
 const FlatKernels table{name, move, move_in_waves, bear, triad};
 
-} // namespace slod::bench::SLOD_ISA
+} // namespace slod::cost::SLOD_ISA

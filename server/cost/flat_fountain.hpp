@@ -1,18 +1,17 @@
 #pragma once
 
-#include "bench/flat_kernels.hpp"
-
 #include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "cost/flat_kernels.hpp"
 #include "effects/fields/turbulence.hpp"
 #include "effects/uniform_fields.hpp"
 #include "sim/settings.hpp"
 
-namespace slod::bench {
+namespace slod::cost {
 
 /// Those of an instruction set, by the names of simd::KernelTable.
 const FlatKernels& flat_kernels(std::string_view isa);
@@ -58,4 +57,4 @@ private:
     std::array<AlignedVector<float>, 6> arrays_; ///< x, y, z, vx, vy, vz; by batch
 };
 
-} // namespace slod::bench
+} // namespace slod::cost
