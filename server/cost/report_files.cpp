@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/number_text.hpp"
 #include "cost/formatted.hpp"
 #include "idl/gnuplot.hpp"
 
@@ -125,7 +126,10 @@ std::string plot_script(const Sweep& sweep, const Circumstances& circumstances,
         for (const Row& row : sweep.rows)
             if (own(row))
                 script << row.ms_median << ' ' << std::max(row.errors.largest(), smallest_drawn) << ' '
-                       << row.setting.max_cluster_size << '\n';
+                       << (row.setting == Setting{motion, row.setting.max_cluster_size}
+                               ? number_text(row.setting.max_cluster_size)
+                               : "\"\"")
+                       << '\n';
         script << "END\n$front_" << name << " << END\n";
         for (const Row& row : pareto_front(sweep.rows, motion))
             script << row.ms_median << ' ' << std::max(row.errors.largest(), smallest_drawn) << '\n';
@@ -135,10 +139,11 @@ std::string plot_script(const Sweep& sweep, const Circumstances& circumstances,
                         " offset 1,0.6 notitle, $front_" + name + " using 1:2 with lines lw 2 lc " + colour +
                         " title '" + name + "'");
     }
-    script << "set logscale xy\nset grid\nset xlabel 'milliseconds per frame'\n"
+    script << "set logscale xy\nset grid\nset key bottom left\nset xlabel 'milliseconds per frame'\n"
            << "set ylabel 'error, in noise floors'\n"
            << "set title \"" << circumstances.particles << " particles, " << circumstances.frames
-           << " frames, " << circumstances.threads << " threads; labels: largest cluster size\"\n";
+           << " frames, " << circumstances.threads
+           << " threads; labels: largest cluster size, all else as in the scene\"\n";
     for (const char* const terminal : {"png", "svg"}) {
         script << "set terminal " << (std::string(terminal) == "png" ? "pngcairo" : "svg")
                << " size 900,600\nset output " << gnuplot_quoted(picture.string() + "." + terminal)
