@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cost/drifts.hpp"
 #include "cost/metrics.hpp"
 #include "cost/sweep.hpp"
 #include "support/small_scenes.hpp"
@@ -102,6 +103,39 @@ TEST(CostSweep, WhatAnIsolatedSystemConservesIsFollowed)
     EXPECT_LT(row.drifts.angular_momentum, 1e-5);
     EXPECT_GT(std::abs(row.drifts.energy), 0);
     EXPECT_LT(std::abs(row.drifts.energy), 0.05);
+}
+
+// m v of both, r x m v of the second alone, m v^2 / 2 of both, and -G m m / (d^2 + eps^2)^(1/2) with G = 1,
+// which the scene's units have to 1e-15.
+TEST(CostDrifts, TotalsOfTwoBodiesAreTheirFormulas)
+{
+    SimulationSettings scene = attracting();
+    scene.kinds[0].softening = 1.5;
+    const ParticleSet pair{{.position = {0, 0, 0}, .velocity = {1, 0, 0}, .id = 1, .mass = 2},
+                           {.position = {2, 0, 0}, .velocity = {0, 3, 0}, .id = 2, .mass = 4}};
+    const Totals sum = totals(pair, scene);
+    EXPECT_EQ(sum.mass, 6);
+    EXPECT_EQ(sum.momentum, Vector3d(2, 12, 0));
+    EXPECT_EQ(sum.angular_momentum, Vector3d(0, 0, 24));
+    EXPECT_EQ(sum.second_moment, 16);
+    EXPECT_EQ(sum.kinetic_energy, 19);
+    EXPECT_NEAR(sum.potential_energy, -8 / 2.5, 1e-14);
+}
+
+TEST(CostDrifts, AreSharesOfTheLargestThereCouldBe)
+{
+    Totals start, end;
+    start.kinetic_energy = end.kinetic_energy = 8; // sqrt(2 M K) is 4, sqrt(2 K sum m r^2) is 8
+    start.potential_energy = end.potential_energy = -24;
+    start.mass = end.mass = 1;
+    start.second_moment = end.second_moment = 4;
+    end.momentum = {1, 0, 0};
+    end.angular_momentum = {0, 0, 1};
+    end.potential_energy = -22;
+    const Drifts changes = drifts(start, end);
+    EXPECT_EQ(changes.momentum, 0.25);
+    EXPECT_EQ(changes.angular_momentum, 0.125);
+    EXPECT_EQ(changes.energy, 2.0 / 16);
 }
 
 TEST(CostSweep, WhatIsNotConservedHasNoDrift)
