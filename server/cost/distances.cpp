@@ -19,37 +19,42 @@ Cloud::Cloud(ParticleSet set) : particles(std::move(set)), x(positions(particles
 
 double Distances::largest() const
 {
-    return std::max({position, velocity, coarse, fine});
+    return std::max({position, velocity, energy, coarse, fine});
 }
 
 Distances& Distances::operator+=(const Distances& other)
 {
-    position += other.position;
-    velocity += other.velocity;
-    coarse += other.coarse;
-    fine += other.fine;
+    for (const DistanceMember& member : distance_members)
+        this->*member.value += other.*member.value;
     return *this;
 }
 
-Distances operator/(const Distances& d, double divisor)
+Distances operator/(const Distances& distances, double divisor)
 {
-    return {d.position / divisor, d.velocity / divisor, d.coarse / divisor, d.fine / divisor};
+    Distances quotient;
+    for (const DistanceMember& member : distance_members)
+        quotient.*member.value = distances.*member.value / divisor;
+    return quotient;
 }
 
-Distances distances(const Cloud& a, const Cloud& b, double radius)
+Distances distances(const Cloud& reference, const Cloud& other, double radius)
 {
-    return {.position = sliced_wasserstein(a.x, b.x),
-            .velocity = sliced_wasserstein(a.v, b.v),
-            .coarse = density_distance(a.x, b.x, radius / 4),
-            .fine = density_distance(a.x, b.x, radius / 16)};
+    const ProfileDistances profiles = profile_distances(reference.x, reference.v, other.x, other.v);
+    return {.position = sliced_wasserstein(reference.x, other.x),
+            .velocity = sliced_wasserstein(reference.v, other.v),
+            .energy = energy_distance(reference.x, other.x),
+            .coarse = density_distance(reference.x, other.x, radius / 4),
+            .fine = density_distance(reference.x, other.x, radius / 16),
+            .profile = profiles.density,
+            .dispersion = profiles.dispersion};
 }
 
 Distances in_floors(const Distances& apart, const Distances& floor)
 {
-    return {.position = over(apart.position, floor.position),
-            .velocity = over(apart.velocity, floor.velocity),
-            .coarse = over(apart.coarse, floor.coarse),
-            .fine = over(apart.fine, floor.fine)};
+    Distances errors;
+    for (const DistanceMember& member : distance_members)
+        errors.*member.value = over(apart.*member.value, floor.*member.value);
+    return errors;
 }
 
 ParticleSet resample(const ParticleSet& particles, std::uint32_t draw)

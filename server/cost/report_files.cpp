@@ -33,11 +33,9 @@ Json json_of(const Row& row)
         {"opening", full.opening ? Json(*full.opening) : Json()},
         {"steps", full.steps},
         {"precision", full.precision ? Json(names(*full.precision)[std::size_t(*full.precision)]) : Json()},
-        {"error", row.errors.largest()},
-        {"error_position", row.errors.position},
-        {"error_velocity", row.errors.velocity},
-        {"error_density_coarse", row.errors.coarse},
-        {"error_density_fine", row.errors.fine}};
+        {"error", row.errors.largest()}};
+    for (const DistanceMember& member : distance_members)
+        json[std::string("error_") + member.name] = row.errors.*member.value;
     for_each_number(row, [&](const std::string& name, double number) { json[name] = number; });
     return json;
 }
@@ -72,7 +70,9 @@ std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
     Json rows = Json::array();
     for (const Row& row : sweep.rows)
         rows.push_back(json_of(row));
-    const Floor& floor = sweep.floor;
+    Json floor;
+    for_each_number(sweep.floor, [&](const std::string& name, const auto& number) { floor[name] = number; });
+    floor["of"] = sweep.floor.resampled ? "bootstrap samples" : "other seeds";
     return Json{{"scene", circumstances.scene},
                 {"version", circumstances.version},
                 {"machine", circumstances.machine},
@@ -80,13 +80,7 @@ std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
                 {"particles", circumstances.particles},
                 {"frames", circumstances.frames},
                 {"reference_steps", reference_steps},
-                {"noise_floor",
-                 {{"position", floor.position},
-                  {"velocity", floor.velocity},
-                  {"density_coarse", floor.coarse},
-                  {"density_fine", floor.fine},
-                  {"rms_radius", floor.rms_radius},
-                  {"of", floor.resampled ? "bootstrap samples" : "other seeds"}}},
+                {"noise_floor", floor},
                 {"rows", rows}}
                .dump(2) +
            '\n';

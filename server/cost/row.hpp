@@ -21,6 +21,7 @@ struct Row {
     Distances errors;                             ///< the same in noise floors
     double median_displacement = 0;   ///< of each particle, in rms radii; chaotic where there is gravity
     double r10 = 0, r50 = 0, r90 = 0; ///< Lagrangian radii over the reference's
+    double thickness = 0;             ///< over the reference's
     AccelerationErrors force;
     Drifts drifts;
     StepProfile phases; ///< mean ms of a frame
@@ -36,14 +37,13 @@ void for_each_number(SomeRow& row, Visitor&& visit) requires std::is_same_v<std:
     visit("ms_p90", row.ms_p90);
     visit("particles", row.particles);
     visit("clusters", row.clusters);
-    visit("distance_position", row.apart.position);
-    visit("distance_velocity", row.apart.velocity);
-    visit("distance_density_coarse", row.apart.coarse);
-    visit("distance_density_fine", row.apart.fine);
+    for (const DistanceMember& member : distance_members)
+        visit(std::string("distance_") + member.name, row.apart.*member.value);
     visit("median_displacement", row.median_displacement);
     visit("r10", row.r10);
     visit("r50", row.r50);
     visit("r90", row.r90);
+    visit("thickness", row.thickness);
     visit("force_error_median", row.force.median);
     visit("force_error_p90", row.force.p90);
     visit("force_error_p99", row.force.p99);

@@ -198,6 +198,7 @@ private:
                 .r10 = radius(0.1),
                 .r50 = radius(0.5),
                 .r90 = radius(0.9),
+                .thickness = ratio(thickness(cloud.x), thickness(wanted.x)),
                 .force = run.force,
                 .drifts = {},
                 .phases = run.phases};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random.hpp"
 #include "cost/distances.hpp"
 #include "cost/metrics.hpp"
 #include "support/clouds.hpp"
@@ -78,6 +79,60 @@ TEST(CostMetrics, ParticlesAreComparedByTheirIds)
     b.erase(b.begin() + 3);
     EXPECT_NEAR(median_displacement(a, b), 0.25, 1e-12);
     EXPECT_TRUE(std::isnan(median_displacement(a, {})));
+}
+
+TEST(CostMetrics, EnergyDistanceOfTwoPointsIsTheRootOfTwiceTheirs)
+{
+    EXPECT_NEAR(energy_distance({{0, 0, 0}}, {{0, 4.5, 0}}), 3, 1e-15);
+    const Points a = ball(3000, 1);
+    EXPECT_EQ(energy_distance(a, a), 0);
+    EXPECT_EQ(energy_distance({}, {}), 0);
+    EXPECT_TRUE(std::isinf(energy_distance({}, a)));
+}
+
+// Its square is quadratic in a small shift.
+TEST(CostMetrics, EnergyDistanceGrowsWithAShift)
+{
+    const Points a = ball(1000, 1);
+    double last = 0;
+    for (const double shift : {0.1, 0.2, 0.4}) {
+        Points b = a;
+        for (Vector3d& point : b)
+            point.y() += shift;
+        EXPECT_GT(energy_distance(a, b), 1.8 * last);
+        last = energy_distance(a, b);
+    }
+}
+
+// A ball that is wider by f has f^-3 of the density at all radii within it: of 1,800 points in a shell, 2.4 %
+// by Poisson's law, and less in the mean of nine. Velocities twice as fast have twice the dispersion.
+TEST(CostMetrics, ProfilesDifferByTheFactorsOfDensityAndDispersion)
+{
+    const Points x = ball(20'000, 3), v = ball(20'000, 4);
+    Points wider = x, faster = v;
+    for (Vector3d& point : wider)
+        point *= 1.2;
+    for (Vector3d& velocity : faster)
+        velocity *= 2;
+    const ProfileDistances same = profile_distances(x, v, x, v),
+                           other = profile_distances(x, v, wider, faster);
+    EXPECT_EQ(same.density, 0);
+    EXPECT_EQ(same.dispersion, 0);
+    EXPECT_NEAR(other.density, 3 * std::log(1.2), 0.024);
+    EXPECT_NEAR(other.dispersion, std::log(2.0), 0.024);
+    EXPECT_EQ(profile_distances({}, {}, x, v).density, 0);
+}
+
+// The inner half of a thin homogeneous slab is a disc of the same thickness: h / sqrt(12), to 1 / sqrt(2 n).
+TEST(CostMetrics, ThicknessIsThatOfADiscHoweverItIsTurned)
+{
+    Points slab = ball(20'000, 5);
+    const Vector3d axis = Vector3d(1, 2, 3).normalized();
+    Random random(7, 1, 1);
+    for (Vector3d& point : slab)
+        point += (0.1 * random.uniform() - point.dot(axis)) * axis;
+    EXPECT_NEAR(thickness(slab), 0.1 / std::sqrt(12.0), 0.03 * 0.1 / std::sqrt(12.0));
+    EXPECT_EQ(thickness({{1, 2, 3}}), 0);
 }
 
 // Clouds of different seeds are drawn alike, so each is about as far from the first as the others are. One
