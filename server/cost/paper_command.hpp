@@ -10,7 +10,7 @@
 
 namespace slod::cost {
 
-/// slod-cost paper: measures Figure 5 of O'Brien et al. 2001.
+/// slod-cost paper: measures Figures 5 and 9 of O'Brien et al. 2001.
 class PaperCommand {
 public:
     explicit PaperCommand(CLI::App& app);
@@ -19,11 +19,11 @@ public:
     int run() const; ///< exit code; what is wrong goes to stderr
 
 private:
-    void measure(const Scene& galaxy, const ParticleSet& stars, const Scene& fountain) const;
+    int measure(const Scene& galaxy, const ParticleSet& stars, const Scene& fountain) const;
 
     CLI::App* command_;
-    std::filesystem::path scenes_;
-    std::size_t droplets_ = 1'000'000;
+    std::filesystem::path scenes_, picture_;
+    std::size_t droplets_;
     int threads_ = 0;
     bool as_json_ = false, quick_ = false;
 };

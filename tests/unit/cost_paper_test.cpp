@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cost/figure5.hpp"
+#include "cost/figure9.hpp"
 #include "cost/paper_report.hpp"
 #include "cost/paper_runs.hpp"
 #include "support/small_scenes.hpp"
@@ -138,6 +139,29 @@ TEST(PaperRuns, TheFountainIsFullAndTimedBesideThreeBaselines)
     EXPECT_EQ(run.clustered.size(), 4U);
     EXPECT_EQ(run.name,
               "fountain of " + std::to_string(int(filled.emitters[0].rate * 0.5 * 2)) + " droplets");
+}
+
+TEST(Figure9, ShowsTheSameFountainThreeTimes)
+{
+    SimulationSettings scene = test::quiet_settings();
+    scene.uniform_gravity.emplace();
+    scene.background.max_breadth = 2;
+    scene.emitters = {test::jet("one")};
+    const std::vector<FountainView> views = view_fountain(scene, 1, ticking());
+    ASSERT_EQ(views.size(), 3U);
+    EXPECT_EQ(views[2].setting.name(), "rigid 30");
+    EXPECT_NEAR(double(views[0].droplets.size()), 320, 1); // one may be at its end
+    for (const FountainView& view : views) {
+        EXPECT_EQ(view.droplets.size(), views[0].droplets.size());
+        EXPECT_NEAR(view.ms, 1.0 / 21, 1e-15); // between two readings, the last 21 of 64 frames
+    }
+    const std::string report = text(views);
+    EXPECT_NE(report.find("flow 30         0.048 ms a frame, 1.00 times as fast, the paper's 6\n"),
+              std::string::npos)
+        << report;
+    const std::string script = side_by_side_script(views, "it's.svg");
+    EXPECT_NE(script.find("set terminal svg size 1350,500\nset output 'it''s.svg'"), std::string::npos);
+    EXPECT_NE(script.find("set title 'unclustered, 0.048 ms a frame'"), std::string::npos);
 }
 
 } // namespace
