@@ -43,7 +43,10 @@ std::vector<FountainView> view_fountain(const SimulationSettings& scene, double 
     std::vector<FountainView> views;
     for (const Setting& setting : {Setting{.max_cluster_size = 1}, Setting{Motion::Flow, figure9_size},
                                    Setting{Motion::Rigid, figure9_size}}) {
-        Simulation simulation(with_setting(scene, setting), {}, {.isa = "auto", .tick = {}});
+        SimulationSettings settings = with_setting(scene, setting);
+        if (setting.unclustered())
+            settings.regions.clear();
+        Simulation simulation(settings, {}, {.isa = "auto", .tick = {}});
         const int full = frames - frames / 3;
         double began = clock();
         for (int frame = 0; frame < frames; ++frame) {

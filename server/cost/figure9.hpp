@@ -25,7 +25,7 @@ struct FountainView {
     Points droplets;
 };
 
-/// Without clusters, in `flow` and in `rigid`. Call it inside ThreadTeam::run.
+/// Without clusters and regions of interest, in `flow` and in `rigid`. Call it inside ThreadTeam::run.
 std::vector<FountainView> view_fountain(const SimulationSettings& scene, double simulated_s,
                                         const Clock& clock);
 

@@ -142,10 +142,13 @@ std::string html_page(const Sweep& sweep, const Circumstances& c, const std::str
                          "positions and %.3g in velocities (scene units), %.3g and %.3g of the particles "
                          "in cubes of a quarter and a sixteenth of the rms radius, %.3g.",
                          floor.position, floor.velocity, floor.coarse, floor.fine, floor.rms_radius)) +
-           paragraph("Milliseconds are medians of a frame, p10 and p90 their spread. In bold: what no other "
-                     "setting of the same motion beats in both time and error. Force: error of the "
-                     "accelerations, |a - exact| / |exact|, median and p99. Drifts are relative, of systems "
-                     "that nothing acts on from outside.") +
+           paragraph(
+               std::string(
+                   "Milliseconds are medians of a frame, p10 and p90 their spread. In bold: what no other "
+                   "setting of the same motion beats in both time and error. Force: error of the "
+                   "accelerations, |a - exact| / |exact|, median and p99. Drifts are relative, of systems "
+                   "that nothing acts on from outside.") +
+               (c.opening.empty() ? "" : " Opening is gravity." + c.opening + ".")) +
            table(sweep.rows) + element("h2", "The scene") + element("pre", escaped(scene_text)) +
            "</body>\n</html>\n";
 }

@@ -34,7 +34,7 @@ PaperCommand::PaperCommand(CLI::App& app)
           app.add_subcommand("paper", "Measure the speed-ups of Figures 5 and 9 of O'Brien et al. 2001")),
       scenes_(SLOD_SCENES), droplets_(default_droplets)
 {
-    command_->add_option("--scenes", scenes_, "Folder of galaxy.toml and paper-fountain.toml")
+    command_->add_option("--scenes", scenes_, "Folder of galaxy.toml, fountain.toml and paper-fountain.toml")
         ->option_text("FOLDER");
     command_->add_option("--droplets", droplets_, "Of the fountain; 1000000, or 30000 with --quick")
         ->check(between<std::size_t>(1000, 20'000'000))
@@ -54,17 +54,21 @@ int PaperCommand::run() const
     const auto galaxy = load_scene(scenes_ / "galaxy.toml", {});
     if (const auto* problems = std::get_if<Problems>(&galaxy))
         return complain(*problems);
-    const auto fountain = load_scene(scenes_ / "paper-fountain.toml", {});
+    const auto fountain = load_scene(scenes_ / "fountain.toml", {});
     if (const auto* problems = std::get_if<Problems>(&fountain))
+        return complain(*problems);
+    const auto with_nozzles = load_scene(scenes_ / "paper-fountain.toml", {});
+    if (const auto* problems = std::get_if<Problems>(&with_nozzles))
         return complain(*problems);
     const auto stars = load_initial(std::get<Scene>(galaxy), {});
     if (const auto* problems = std::get_if<Problems>(&stars))
         return complain(*problems);
     return measure(std::get<Scene>(galaxy), std::get<InitialParticles>(stars).particles,
-                   std::get<Scene>(fountain));
+                   std::get<Scene>(fountain), std::get<Scene>(with_nozzles));
 }
 
-int PaperCommand::measure(const Scene& galaxy, const ParticleSet& stars, const Scene& fountain) const
+int PaperCommand::measure(const Scene& galaxy, const ParticleSet& stars, const Scene& fountain,
+                          const Scene& with_nozzles) const
 {
     const PaperPlan plan = quick_ ? quick_plan() : PaperPlan{};
     const std::size_t droplets = quick_ && droplets_ == default_droplets ? quick_droplets : droplets_;
@@ -78,7 +82,7 @@ int PaperCommand::measure(const Scene& galaxy, const ParticleSet& stars, const S
     ThreadTeam(team_size(threads_)).run([&] {
         of_galaxy = run_galaxy(galaxy.simulation, stars, plan, wall_milliseconds, announce);
         of_fountain = run_fountain(fountain.simulation, droplets, plan, wall_milliseconds, announce);
-        views = view_fountain(fountain.simulation, figure9_s, wall_milliseconds);
+        views = view_fountain(with_nozzles.simulation, figure9_s, wall_milliseconds);
     });
     if (on_terminal)
         std::fprintf(stderr, "\r%60s\r", "");

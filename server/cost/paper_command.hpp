@@ -19,7 +19,8 @@ public:
     int run() const; ///< exit code; what is wrong goes to stderr
 
 private:
-    int measure(const Scene& galaxy, const ParticleSet& stars, const Scene& fountain) const;
+    int measure(const Scene& galaxy, const ParticleSet& stars, const Scene& fountain,
+                const Scene& with_nozzles) const;
 
     CLI::App* command_;
     std::filesystem::path scenes_, picture_;

@@ -149,6 +149,8 @@ PaperRun run_fountain(const SimulationSettings& scene, std::size_t droplets, con
     const auto per_frame = std::size_t(filled.emitters.front().rate * filled.time.step + 0.5);
     const int settle = plan.settle_frames + int(lifetime);
     const ParticleSet dry;
+    SimulationSettings bare = filled;
+    bare.regions.clear();
     const Runner runner(filled, dry, plan, settle, clock, announce);
     PlainDroplets plain(filled);
     FlatFountain flat(filled, per_frame, lifetime, simd::kernels().name);
@@ -157,7 +159,7 @@ PaperRun run_fountain(const SimulationSettings& scene, std::size_t droplets, con
                  .baselines = {},
                  .clustered = {}};
     run.baselines = {runner.baseline("plain loop over droplets", settle, [&] { plain.step(); }),
-                     runner.unclustered("each droplet by itself", filled),
+                     runner.unclustered("each droplet by itself", bare),
                      runner.baseline("loop in whole registers", settle, [&] { flat.step(); })};
     run.clustered = runner.clustered();
     return run;

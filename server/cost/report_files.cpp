@@ -80,6 +80,7 @@ std::string json_text(const Sweep& sweep, const Circumstances& circumstances)
                 {"particles", circumstances.particles},
                 {"frames", circumstances.frames},
                 {"reference_steps", reference_steps},
+                {"opening", circumstances.opening},
                 {"noise_floor", floor},
                 {"rows", rows}}
                .dump(2) +

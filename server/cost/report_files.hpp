@@ -15,6 +15,7 @@ struct Circumstances {
     std::uint64_t particles; ///< at the end; of the unclustered run
     int frames;
     int threads;
+    std::string opening{}; ///< the key of gravity that the settings' opening is; empty without gravity
 };
 
 std::string csv_text(const Sweep& sweep);

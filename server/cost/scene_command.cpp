@@ -184,12 +184,15 @@ Sweep SceneCommand::sweep(const Scene& scene, const SweepPlan& plan, FinishedRun
 /// Files and what is printed; returns the exit code.
 int SceneCommand::report(const Sweep& sweep, const Scene& scene, const std::string& text, int frames) const
 {
+    const auto& gravity = scene.simulation.gravity;
+    const std::string opening = gravity ? opening_of(*gravity).key : "";
     const Circumstances circumstances{.scene = scene.title,
                                       .version = std::string(version()),
                                       .machine = machine_name(),
                                       .particles = std::uint64_t(sweep.rows.front().particles),
                                       .frames = frames,
-                                      .threads = team_size(threads_)};
+                                      .threads = team_size(threads_),
+                                      .opening = opening};
     write(folder_ / "cost.csv", csv_text(sweep));
     write(folder_ / "cost.json", json_text(sweep, circumstances));
     const std::string undrawn = run_gnuplot(plot_script(sweep, circumstances, folder_ / "cost"));

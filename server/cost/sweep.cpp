@@ -140,7 +140,8 @@ private:
             const std::uint64_t seed = scene_.seed + std::uint64_t(k);
             measure(trial(unclustered, seed, "unclustered, seed " + std::to_string(seed), false).particles);
             apart.resampled = apart.position == 0; // no random number is in it
-        }
+        } else
+            done_ += 1;
         if (apart.resampled)
             measure(resample(own().particles, std::uint32_t(k)));
         return apart;
@@ -166,7 +167,11 @@ private:
     std::optional<Outcome> recall(const std::string& run)
     {
         const FinishedRuns::Json* const known = finished_.find(run);
-        return known == nullptr ? std::nullopt : read_numbers<Outcome>(*known);
+        std::optional<Outcome> outcome;
+        if (known != nullptr)
+            outcome = read_numbers<Outcome>(*known);
+        runs_ -= outcome ? 1 : 0;
+        return outcome;
     }
 
     template <class Outcome>
@@ -222,7 +227,7 @@ private:
     FinishedRuns& finished_;
     const ParticleSet particles_; ///< at the start, for the scene's own seed
     const bool isolated_;
-    double runs_;     ///< in the plan, as far as it is known
+    double runs_;     ///< to be made, as far as the plan is known
     double done_ = 0; ///< of them
     std::optional<Cloud> reference_;
     std::optional<Trial> unclustered_;

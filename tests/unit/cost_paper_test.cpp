@@ -141,6 +141,20 @@ TEST(PaperRuns, TheFountainIsFullAndTimedBesideThreeBaselines)
               "fountain of " + std::to_string(int(filled.emitters[0].rate * 0.5 * 2)) + " droplets");
 }
 
+// The clock moves on at each reading, of which a frame has two for each phase: with regions there are more.
+TEST(PaperRuns, WhoHasNoClustersHasNoRegionsEither)
+{
+    SimulationSettings scene = test::quiet_settings();
+    scene.uniform_gravity.emplace();
+    scene.background.max_breadth = 2;
+    scene.emitters = {test::jet("one")};
+    const PaperRun plain = run_fountain(scene, 1000, tiny, ticking(), [](const std::string&) {});
+    scene.regions.emplace_back().name = "nozzle";
+    scene.regions.back().partition.max_breadth = 2;
+    const PaperRun with_region = run_fountain(scene, 1000, tiny, ticking(), [](const std::string&) {});
+    EXPECT_EQ(with_region.baselines[1].ms, plain.baselines[1].ms);
+}
+
 TEST(Figure9, ShowsTheSameFountainThreeTimes)
 {
     SimulationSettings scene = test::quiet_settings();
