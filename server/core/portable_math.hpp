@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace slod {
 
 /// Elementary functions from +, -, *, / alone. The C library picks among variants by processor, whose
@@ -14,5 +17,14 @@ struct SineCosine {
     double sine, cosine;
 };
 SineCosine portable_sincos(double angle);
+
+/// 1 / n!, for series by powers.
+inline constexpr std::array<double, 19> inverse_factorials = [] {
+    std::array<double, 19> inverse{1};
+    double factorial = 1; // exact up to 18!
+    for (std::size_t n = 1; n < inverse.size(); ++n)
+        inverse[n] = 1 / (factorial *= double(n));
+    return inverse;
+}();
 
 } // namespace slod

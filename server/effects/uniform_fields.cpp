@@ -5,19 +5,18 @@
 #include "core/portable_math.hpp"
 
 namespace slod {
+
 double drag_fall(double drag, double time)
 {
     const double x = drag * time;
     if (std::abs(x) > 0.1)
         return (time - drag_drift(drag, time)) / drag;
     // Taylor series: the difference above would cancel. The first term left out is x^10 / 12!.
-    double sum = 0;
-    double term = 0.5;
-    for (int n = 3; n <= 12; ++n) {
-        sum += term;
-        term *= -x / n;
-    }
-    return time * time * sum;
+    constexpr const auto& over = inverse_factorials;
+    const double x2 = x * x, x4 = x2 * x2;
+    const double low = ((over[2] - x * over[3]) + x2 * (over[4] - x * over[5])) +
+                       x4 * ((over[6] - x * over[7]) + x2 * (over[8] - x * over[9]));
+    return time * time * (low + x4 * x4 * (over[10] - x * over[11]));
 }
 
 UniformFields::UniformFields(const std::optional<UniformGravitySettings>& uniform_gravity,
@@ -34,7 +33,7 @@ UniformFields::UniformFields(const std::optional<UniformGravitySettings>& unifor
 
 Damping::Damping(double drag, double duration)
     : time(duration), decay_minus_1(drag == 0 ? 0.0 : portable_expm1(-drag * duration)),
-      drift(drag_drift(drag, duration)), fall(drag_fall(drag, duration))
+      drift(drag == 0 ? duration : -decay_minus_1 / drag), fall(drag_fall(drag, duration))
 {}
 
 Propagator UniformFields::over(const Damping& time) const
