@@ -63,6 +63,25 @@ void write_row(const Rows& rows, std::uint32_t row, const Particle& particle, co
         rows.expiry[row] = particle.expiry_frame;
 }
 
+void copy_row(const Rows& from, std::uint32_t source, const Rows& to, std::uint32_t row)
+{
+    to.offset[row] = from.offset[source];
+    to.id[row] = from.id[source];
+    if (from.mass != nullptr)
+        to.mass[row] = from.mass[source];
+    if (from.kind != nullptr)
+        to.kind[row] = from.kind[source];
+    if (from.expiry != nullptr)
+        to.expiry[row] = from.expiry[source];
+}
+
+/// Widens what bounds the offsets of the cluster's members.
+void note_bounds(ClusterTable& clusters, std::size_t slot, const FormedOffset& offset)
+{
+    clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
+    clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
+}
+
 void add_to_moments(ClusterStore& store, std::size_t slot, double mass, const FormedOffset& offset)
 {
     const Vector3d o = offset.position.cast<double>();
@@ -78,17 +97,11 @@ const Moments& centring_moments(const ClusterTable& clusters, std::size_t slot)
     return clusters.mass(slot) > 0 ? clusters.moments[slot] : clusters.counting_moments(slot);
 }
 
-MapBlocks::Offset means(const ClusterTable& clusters, std::size_t slot)
-{
-    const Moments& moments = centring_moments(clusters, slot);
-    return {moments.mean_offset(), moments.mean_velocity()};
-}
-
 /// Adds to the centre what moves the members' mean, so that no member moves: it is at X + M (o - mean).
 void follow_mean(ClusterTable& clusters, std::size_t slot, const MapBlocks& map,
                  const MapBlocks::Offset& before)
 {
-    const MapBlocks::Offset after = means(clusters, slot);
+    const MapBlocks::Offset after = map_centre(clusters, slot);
     const MapBlocks::Offset shift =
         map.forward({after.position - before.position, after.velocity - before.velocity});
     clusters.position[slot] += shift.position;
@@ -149,28 +162,13 @@ void start_columns(ClusterStore& store, std::size_t slot, const Centre& centre, 
         clusters.strain[slot] = 0;
 }
 
-/// Bounds the spectral norm from above, and is equal to it for a multiple of the identity.
-double norm_bound(const Matrix3d& matrix)
-{
-    const Matrix3d sizes = matrix.cwiseAbs();
-    return std::sqrt(sizes.rowwise().sum().maxCoeff() * sizes.colwise().sum().maxCoeff());
-}
-
-/// Largest lengths of o - o_c and w - w_c among the members, from the largest of o and w at forming.
-MemberBounds formed_bounds(const ClusterTable& clusters, std::size_t slot)
-{
-    const MapBlocks::Offset mean = means(clusters, slot);
-    return {double(clusters.offset_max[slot]) + mean.position.norm(),
-            double(clusters.speed_max[slot]) + mean.velocity.norm()};
-}
-
-/// Largest length of `of_offset` o + `of_velocity` w among the members.
-double mapped_bound(const MemberBounds& formed, const Matrix3d& of_offset, const Matrix3d& of_velocity)
-{
-    return norm_bound(of_offset) * formed.radius + norm_bound(of_velocity) * formed.velocity;
-}
-
 } // namespace
+
+MapBlocks::Offset map_centre(const ClusterTable& clusters, std::size_t slot)
+{
+    const Moments& moments = centring_moments(clusters, slot);
+    return {moments.mean_offset(), moments.mean_velocity()};
+}
 
 void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> particles,
                   std::uint64_t frame)
@@ -190,8 +188,7 @@ void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> 
         const FormedOffset offset{(particle.position - centre.position).cast<float>(),
                                   (particle.velocity - centre.velocity).cast<float>()};
         write_row(rows, row++, particle, offset);
-        clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
-        clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
+        note_bounds(clusters, slot, offset);
     }
     clusters.stored[slot] = clusters.count[slot] = row;
     sum_up(store, slot, frame);
@@ -204,28 +201,35 @@ void map_out(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame
     const ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
     SLOD_ASSERT(out.size() == clusters.count[slot]);
-    const Slab& slab = clusters.slab[slot];
-    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
-    const MapBlocks::Offset mean = means(clusters, slot);
-    const FormedOffset* offsets = store.members.offsets(slab);
-    const std::uint64_t* ids = store.members.ids(slab);
-    const float* masses = store.members.masses(slab);
-    const std::uint8_t* kinds = store.members.kinds(slab);
-    const std::uint32_t* expiries = store.members.expiries(slab);
+    const std::uint32_t* expiries = store.members.expiries(clusters.slab[slot]);
+    const MemberReader member(store, cluster, frame);
     auto particle = out.begin();
-    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row) {
-        if (expiries != nullptr && expiries[row] <= frame)
-            continue;
-        const MapBlocks::Offset now = map.forward(relative_to(offsets[row], mean));
-        particle->position = clusters.position[slot] + now.position;
-        particle->velocity = clusters.mean_velocity(slot) + now.velocity;
-        particle->id = ids[row];
-        particle->mass = masses != nullptr ? masses[row] : store.uniform_mass;
-        particle->kind = kinds != nullptr ? kinds[row] : std::uint8_t(0);
-        particle->expiry_frame = expiries != nullptr ? expiries[row] : Particle::never;
-        ++particle;
-    }
+    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row)
+        if (expiries == nullptr || expiries[row] > frame)
+            *particle++ = member(row);
     SLOD_ASSERT(particle == out.end());
+}
+
+MemberReader::MemberReader(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame)
+    : store_(store), slab_(store.clusters.slab[slot.index]),
+      map_(store.clusters.blocks(slot.index, store.rule, frame)),
+      mean_(map_centre(store.clusters, slot.index)), position_(store.clusters.position[slot.index]),
+      velocity_(store.clusters.mean_velocity(slot.index))
+{}
+
+Particle MemberReader::operator()(std::uint32_t row) const
+{
+    const MemberPool& members = store_.members;
+    const float* masses = members.masses(slab_);
+    const std::uint8_t* kinds = members.kinds(slab_);
+    const std::uint32_t* expiries = members.expiries(slab_);
+    const MapBlocks::Offset now = map_.forward(relative_to(members.offsets(slab_)[row], mean_));
+    return {.position = position_ + now.position,
+            .velocity = velocity_ + now.velocity,
+            .id = members.ids(slab_)[row],
+            .mass = masses != nullptr ? masses[row] : store_.uniform_mass,
+            .expiry_frame = expiries != nullptr ? expiries[row] : Particle::never,
+            .kind = kinds != nullptr ? kinds[row] : std::uint8_t(0)};
 }
 
 ClusterPicture picture_of(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame)
@@ -233,14 +237,14 @@ ClusterPicture picture_of(const ClusterStore& store, ClusterSlot cluster, std::u
     const ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
     return {clusters.slab[slot], clusters.stored[slot], clusters.position[slot],
-            clusters.blocks(slot, store.rule, frame), means(clusters, slot)};
+            clusters.blocks(slot, store.rule, frame), map_centre(clusters, slot)};
 }
 
 ClusterPast past_of(const ClusterTable& clusters, std::size_t slot)
 {
     return {.formation = clusters.formation[slot],
             .position = clusters.position[slot],
-            .mean = means(clusters, slot),
+            .mean = map_centre(clusters, slot),
             .map = clusters.columns.map ? clusters.map[slot] : FlowMap{}};
 }
 
@@ -278,7 +282,7 @@ void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& par
     const std::size_t slot = cluster.index;
     SLOD_ASSERT(clusters.count[slot] > 0 && takes_members(store, cluster, frame));
     const MapBlocks map = clusters.blocks(slot, store.rule, frame);
-    const MapBlocks::Offset mean = means(clusters, slot);
+    const MapBlocks::Offset mean = map_centre(clusters, slot);
     const Vector3d away = particle.position - clusters.position[slot];
     const Vector3d rush = particle.velocity - clusters.mean_velocity(slot);
     const MapBlocks::Offset formed = map.inverse({away, rush});
@@ -310,7 +314,7 @@ std::uint32_t remove_expired(ClusterStore& store, ClusterSlot cluster, std::uint
     ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
     const Rows rows = rows_of(store.members, clusters.slab[slot]);
-    const MapBlocks::Offset mean = means(clusters, slot);
+    const MapBlocks::Offset mean = map_centre(clusters, slot);
     const std::uint32_t due = clusters.next_expiry[slot];
     std::uint32_t died = 0;
     clusters.next_expiry[slot] = Particle::never;
@@ -328,6 +332,35 @@ std::uint32_t remove_expired(ClusterStore& store, ClusterSlot cluster, std::uint
     return died;
 }
 
+void release_members(ClusterStore& store, ClusterSlot cluster, const Slab& slab,
+                     std::span<const std::uint32_t> rows, std::uint64_t frame)
+{
+    ClusterTable& clusters = store.clusters;
+    const std::size_t slot = cluster.index;
+    const MapBlocks::Offset mean = map_centre(clusters, slot);
+    const Rows from = rows_of(store.members, clusters.slab[slot]), to = rows_of(store.members, slab);
+    std::uint32_t kept = 0;
+    auto leaving = rows.begin();
+    clusters.offset_max[slot] = clusters.speed_max[slot] = 0;
+    for (std::uint32_t row = 0; row < clusters.stored[slot]; ++row) {
+        if (from.expiry != nullptr && from.expiry[row] < frame)
+            continue;
+        if (leaving != rows.end() && *leaving == row) {
+            ++leaving;
+            continue;
+        }
+        copy_row(from, row, to, kept++);
+        note_bounds(clusters, slot, from.offset[row]);
+    }
+    SLOD_ASSERT(kept > 0 && kept + rows.size() == clusters.count[slot]);
+    clusters.slab[slot] = slab;
+    clusters.stored[slot] = clusters.count[slot] = kept;
+    if (clusters.columns.expiry)
+        clusters.next_expiry[slot] = *std::min_element(to.expiry, to.expiry + kept);
+    sum_up(store, slot, frame - 1);
+    follow_mean(clusters, slot, clusters.blocks(slot, store.rule, frame), mean);
+}
+
 void hold_velocity(ClusterTable& clusters, std::size_t slot, const Vector3d& velocity)
 {
     clusters.withheld[slot] += clusters.velocity[slot] - velocity;
@@ -338,34 +371,6 @@ void release_velocity(ClusterTable& clusters, std::size_t slot)
 {
     clusters.velocity[slot] += clusters.withheld[slot];
     clusters.withheld[slot].setZero();
-}
-
-double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
-                       std::uint64_t frame)
-{
-    const MapBlocks map = clusters.blocks(slot, rule, frame);
-    return mapped_bound(formed_bounds(clusters, slot), map.a, map.b);
-}
-
-double velocity_bound(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
-                      std::uint64_t frame)
-{
-    const MapBlocks map = clusters.blocks(slot, rule, frame);
-    return mapped_bound(formed_bounds(clusters, slot), map.c, map.d);
-}
-
-MemberBounds member_bounds(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
-{
-    const MemberBounds formed = formed_bounds(store.clusters, slot);
-    if (store.rule.kind == MapKind::Full) {
-        const MapBlocks map = store.clusters.blocks(slot, store.rule, frame);
-        return {mapped_bound(formed, map.a, map.b), mapped_bound(formed, map.c, map.d)};
-    }
-    if (store.rule.kind == MapKind::Identity)
-        return formed;
-    const double drift = store.drift(frame - store.clusters.formed_frame[slot]);
-    const double decay = 1 - store.rule.drag * drift;
-    return {formed.radius + drift * formed.velocity, decay * formed.velocity};
 }
 
 } // namespace slod

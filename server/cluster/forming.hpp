@@ -36,6 +36,22 @@ void form_cluster(ClusterStore& store, ClusterSlot slot, std::span<Particle> par
 /// them. Order as stored.
 void map_out(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, std::span<Particle> out);
 
+/// Single members of a cluster as they are at the end of a frame.
+class MemberReader {
+public:
+    MemberReader(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
+
+    /// The member in a row that has been written.
+    Particle operator()(std::uint32_t row) const;
+
+private:
+    const ClusterStore& store_;
+    Slab slab_;
+    MapBlocks map_;
+    MapBlocks::Offset mean_; ///< what the map is applied about
+    Vector3d position_, velocity_;
+};
+
 /// All that a cluster's members' places follow from besides their rows, which stay as long as their slab is
 /// not recycled, whatever becomes of the cluster.
 struct ClusterPicture {
@@ -106,24 +122,21 @@ void insert_member(ClusterStore& store, ClusterSlot slot, const Particle& partic
 /// may be left with count 0, for the caller to free.
 std::uint32_t remove_expired(ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
 
+/// Lets members go whatever their time, and moves the cluster into `slab`, which has room for the others:
+/// those of `rows` (ascending; not all) of the members that were alive at the end of the frame before
+/// `frame`, which its map has been carried to. The others stay where the map has them. The old slab is the
+/// caller's.
+void release_members(ClusterStore& store, ClusterSlot slot, const Slab& slab,
+                     std::span<const std::uint32_t> rows, std::uint64_t frame);
+
 /// Lets the cluster move at `velocity` instead of its members' mean, which is kept in mind.
 void hold_velocity(ClusterTable& clusters, std::size_t slot, const Vector3d& velocity);
 
 /// Gives the cluster its members' mean velocity back.
 void release_velocity(ClusterTable& clusters, std::size_t slot);
 
-/// Radius about the centre that no member is beyond: |A| (o_max + |o_c|) + |B| (w_max + |w_c|).
-double bounding_radius(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
-                       std::uint64_t frame);
-
-/// The same for velocities: no member's differs more from the cluster's.
-double velocity_bound(const ClusterTable& clusters, const MapRule& rule, std::size_t slot,
-                      std::uint64_t frame);
-
-/// Both at once, up to rounding, and without an exponential where maps are closed forms of the age.
-struct MemberBounds {
-    double radius, velocity;
-};
-MemberBounds member_bounds(const ClusterStore& store, std::size_t slot, std::uint64_t frame);
+/// What the map is applied about: the means of the members' stored offsets, by mass, or by number of a
+/// massless cluster.
+MapBlocks::Offset map_centre(const ClusterTable& clusters, std::size_t slot);
 
 } // namespace slod

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "cluster/bounds.hpp"
 #include "cluster/particles.hpp"
 #include "core/number_text.hpp"
 

@@ -89,13 +89,13 @@ Path Colliders::seen_from(const Collider& collider, const Path& path, double lef
             path.acceleration - path.drag * collider.velocity, path.drag};
 }
 
-/// Whether the whole flight is clear of what bounds the colliders, as most are: the answer costs a fraction
-/// of the search for the first impact.
-bool Colliders::passes_all(const Path& path, const Elapsed& whole) const
+/// Whether the whole flight of all within `reach` is clear of what bounds the colliders, as most are: the
+/// answer costs a fraction of the search for the first impact.
+bool Colliders::passes_all(const Path& path, const Elapsed& whole, double reach) const
 {
     return std::all_of(all_.begin(), all_.end(), [&](const Collider& collider) {
         Box way = seen_from(collider, path, whole.time).bounds(whole);
-        const Vector3d near = Vector3d::Constant(touching_distance(collider, path.position));
+        const Vector3d near = Vector3d::Constant(touching_distance(collider, path.position) + reach);
         way.lower -= near;
         way.upper += near;
         return !meet(way, collider.bounds);
@@ -127,19 +127,54 @@ void Colliders::visit_piece(const Piece& piece, const Visit& visit) const
         visit(piece, Plate(*collider.sheet, piece.plate));
 }
 
+/// Calls visit(collider, piece's solid, path as seen from there) for each piece that anything within `reach`
+/// of the path may touch within `time`, until it returns true; returns whether it did.
+template <class Visit>
+bool Colliders::any_about_to_touch(const Path& path, double reach, double time, const Visit& visit) const
+{
+    const Elapsed whole = elapsed(time, path.drag);
+    return std::any_of(all_.begin(), all_.end(), [&](const Collider& collider) {
+        const Path seen = seen_from(collider, path, time);
+        const double near = touching_distance(collider, path.position);
+        const double within = collider.on_hit == OnHit::Stick ? reach + near : reach;
+        return any_piece(collider, seen.sweep(whole, reach + near), [&](const Piece&, const Solid& solid) {
+            return first_contact(seen, solid, within, whole, false) <= time && visit(collider, solid, seen);
+        });
+    });
+}
+
 bool Colliders::may_touch(const Vector3d& position, const Vector3d& velocity, double reach, double time,
                           const UniformFields& fields) const
 {
-    const Path path{position, velocity, fields.acceleration(), fields.drag};
-    const Elapsed whole = elapsed(time, fields.drag);
-    return std::any_of(all_.begin(), all_.end(), [&](const Collider& collider) {
-        const Path seen = seen_from(collider, path, time);
-        const double near = touching_distance(collider, position);
-        const double within = collider.on_hit == OnHit::Stick ? reach + near : reach;
-        return any_piece(collider, seen.sweep(whole, reach + near), [&](const Piece&, const Solid& solid) {
-            return first_contact(seen, solid, within, whole, false) <= time;
-        });
-    });
+    return any_about_to_touch({position, velocity, fields.acceleration(), fields.drag}, reach, time,
+                              [](const Collider&, const Solid&, const Path&) { return true; });
+}
+
+bool Colliders::clear_of_all(const Vector3d& position, const Vector3d& velocity, double reach, double time,
+                             const UniformFields& fields) const
+{
+    return passes_all({position, velocity, fields.acceleration(), fields.drag}, elapsed(time, fields.drag),
+                      reach);
+}
+
+/// The plane across the way to the nearest point of a convex solid has all of it on the far side, also where
+/// the place is inside and that is the way out.
+Fences Colliders::fences(const Vector3d& position, const Vector3d& velocity, double reach, double time,
+                         const UniformFields& fields) const
+{
+    Fences fences;
+    const Vector3d farthest = position.cwiseAbs().array() + reach;
+    const auto put_up = [&](const Collider& collider, const Solid& solid, const Path& seen) {
+        fences.complete = fences.count < Fences::most;
+        if (!fences.complete)
+            return true;
+        const Surface surface = solid.surface(seen.position);
+        fences.all[fences.count++] = {surface.normal, surface.distance, collider.velocity,
+                                      touching_distance(collider, farthest)};
+        return false;
+    };
+    any_about_to_touch({position, velocity, fields.acceleration(), fields.drag}, reach, time, put_up);
+    return fences;
 }
 
 Colliders::Encounter Colliders::fly(Vector3d& position, Vector3d& velocity, double time,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +14,23 @@
 
 namespace slod {
 
+/// A plane between a place and a solid, all of which is on its far side. It moves with the solid.
+struct Fence {
+    Vector3d normal;   ///< away from the solid
+    double height;     ///< of the place above it
+    Vector3d velocity; ///< of the solid
+    double near;       ///< who is so low above it may touch the solid
+};
+
+/// The fences of a place towards all pieces that it may be about to meet.
+struct Fences {
+    static constexpr std::size_t most = 16;
+
+    std::array<Fence, most> all;
+    std::size_t count = 0;
+    bool complete = true; ///< there are no more than these
+};
+
 /// The solids of a scene, and how a particle fares among them.
 class Colliders {
 public:
@@ -22,7 +41,6 @@ public:
     void set_fields(const UniformFields& fields);
 
     const UniformFields& fields() const { return fields_; }
-    double frame_drift() const { return frame_.drift; } ///< how far unit velocity carries in a frame
 
     /// Flights end at this time from here on. Colliders are where the scene has them at 0; before the first
     /// call of this, the first frame's flights are meant.
@@ -36,6 +54,19 @@ public:
     {
         return may_touch(position, velocity, reach, time, fields_);
     }
+
+    /// Whether all within `reach` of such a place keeps clear of what bounds the solids: a quick answer that
+    /// is never true falsely.
+    bool clear_of_all(const Vector3d& position, const Vector3d& velocity, double reach, double time,
+                      const UniformFields& fields) const;
+
+    /// Fences, as the flight begins, towards all that may_touch() is true for: what is within `reach` of the
+    /// place and stays above each of them touches nothing.
+    Fences fences(const Vector3d& position, const Vector3d& velocity, double reach, double time,
+                  const UniformFields& fields) const;
+
+    /// The whole frame, under the drag of fields().
+    const Elapsed& frame() const { return frame_; }
 
     /// What a particle met.
     struct Encounter {
@@ -102,7 +133,9 @@ private:
     static double touching_distance(const Collider& collider, const Vector3d& position);
     static bool ends(const Contacts& contacts, bool met, double left, Vector3d& position, Vector3d& velocity,
                      Encounter& encounter);
-    bool passes_all(const Path& path, const Elapsed& whole) const;
+    bool passes_all(const Path& path, const Elapsed& whole, double reach = 0) const;
+    template <class Visit>
+    bool any_about_to_touch(const Path& path, double reach, double time, const Visit& visit) const;
     Path seen_from(const Collider& collider, const Path& path, double left) const;
     Contact contact_with(const Piece& piece, const Solid& solid, const Vector3d& place) const;
     template <class Visit>

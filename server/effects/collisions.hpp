@@ -1,8 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "cluster/bounds.hpp"
 #include "effects/air.hpp"
 #include "effects/colliders.hpp"
 #include "effects/losses.hpp"
@@ -12,17 +17,17 @@ namespace slod {
 
 /// What collisions came to in one frame.
 struct CollisionCounts {
-    std::uint64_t struck = 0;          ///< clusters whose bound may have touched a collider
-    std::uint64_t taken_apart = 0;     ///< those that ended, and whose members were formed anew
+    std::uint64_t struck = 0;          ///< clusters of which members may have touched a collider
+    std::uint64_t taken_apart = 0;     ///< those that ended, or whose members were in part formed anew
     std::uint64_t impacts = 0;         ///< of particles
     std::uint64_t impacts_cut_off = 0; ///< particles that rest, having met too many surfaces
     std::uint64_t killed = 0;          ///< particles that died of an impact; those just born are not counted
 };
 
-/// Clusters among colliders. One whose bound may touch a collider on its way through the frame is mapped out
-/// before it moves, and its members fly by themselves, from impact to impact (O'Brien et al. 2001, section
-/// 5.1). Then it goes on as it is if none of them touched anything, or if all are where they were; else it is
-/// taken apart and its members are formed into clusters anew.
+/// Clusters among colliders. Of one whose bound may touch a collider on its way through the frame, those
+/// members whose own way may are mapped out before it moves, and fly by themselves, from impact to impact
+/// (O'Brien et al. 2001, section 5.1). Then it goes on as it is if none of them touched anything, or if all
+/// are where they were; else those that did leave it, and are formed into clusters anew.
 class Collisions {
 public:
     /// What a cluster's map says of its members.
@@ -42,11 +47,12 @@ public:
     const Colliders& colliders() const { return colliders_; }
     void set_fields(const UniformFields& fields) { colliders_.set_fields(fields); }
 
-    /// Members that may be struck in the next frame, of so many particles: twice as many as in the last one,
-    /// and 65,536 more. Should there be even more at once, memory for them is taken in that frame.
+    /// Members of clusters that may be struck in the next frame, of so many particles: twice as many as in
+    /// the last one, and 65,536 more. Should there be even more at once, memory for them is taken in that
+    /// frame.
     std::size_t expected_members(std::size_t particle_count) const
     {
-        return remaking_.expected_members(particle_count, 65'536);
+        return std::min(particle_count, 2 * struck_members_ + 65'536);
     }
 
     /// Provides memory for so many members, in the clusters there is room for.
@@ -63,29 +69,66 @@ public:
                            Losses& killed);
 
 private:
-    /// Where a struck cluster was, and how its members fared.
-    struct Outcome {
-        Vector3d position{0, 0, 0}, velocity{0, 0, 0};
-        bool touched = false;    ///< any of them
-        std::uint32_t moved = 0; ///< members whose place or velocity is another
+    enum class Fate : std::uint8_t { Free, Touching, Killed };
+
+    /// A member that may be struck.
+    struct Flown {
+        Particle particle; ///< as its flight left it
+        Fate fate;
+    };
+
+    /// A cluster that has such, and how they fared.
+    struct Struck {
+        ClusterSlot slot;
+        std::uint32_t first, count;               ///< of them
+        std::uint32_t touching = 0;               ///< of them, also those killed; their rows come first
+        std::array<std::uint32_t, 2> outliving{}; ///< by fate, but for those killed: whose time has not come
+        std::uint32_t moved = 0;                  ///< of them, whose place or velocity is another
+        Vector3d position{0, 0, 0}, velocity{0, 0, 0}; ///< where it was
         std::uint64_t impacts = 0, cut_off = 0;
         Losses killed{};
     };
 
-    enum class Fate : std::uint8_t { Free, Touching, Killed };
+    /// What a cluster gets from the forces of a frame.
+    struct Kick {
+        Vector3d acceleration{0, 0, 0};
+        Vector3d half{0, 0, 0}; ///< of it, a velocity
+    };
 
-    bool may_be_struck(const UpdateContext& context, std::size_t slot) const;
-    Air::Felt felt_by(const UpdateContext& context, std::size_t slot) const;
-    Outcome fly(const UpdateContext& context, const Remaking::Mapped& struck, std::span<Particle> members);
-    bool keep(ClusterTable& clusters, const Remaking::Mapped& struck, const Outcome& outcome) const;
-    void take_apart(const ClusterTable& clusters, const Remaking::Mapped& struck, std::uint64_t frame);
+    /// What a struck cluster loses.
+    struct Parting {
+        const Struck* struck;
+        std::uint32_t first; ///< of its members among those that are grouped
+        Slab rest;           ///< for those that stay; none where it ends
+    };
+
+    double reach(const UpdateContext& context, std::size_t slot, const MemberBounds& bounds,
+                 const Air::Felt* felt) const;
+    template <class Visit>
+    void visit_near(const UpdateContext& context, ClusterSlot slot, const Visit& visit) const;
+    bool flies_whole(const ClusterTable& clusters, std::size_t slot) const;
+    Kick kick_of(const UpdateContext& context, std::size_t slot) const;
+    void list_struck(const ClusterTable& clusters);
+    void fly(const UpdateContext& context, Struck& struck);
+    bool keep(ClusterTable& clusters, const Struck& struck) const;
+    void part(SlodTree& tree, const UpdateContext& context, const Struck& struck);
+    void group(const ClusterTable& clusters, const Struck& struck, std::uint32_t count, bool together);
+    void move_members(const UpdateContext& context, const Parting& parting);
+    std::span<const Flown> flown_by(const Struck& struck) const
+    {
+        return std::span(flown_).subspan(struck.first, struck.count);
+    }
 
     Colliders colliders_;
     Rules rules_;
     const Air* air_;
-    Remaking remaking_;             ///< of the struck
-    std::vector<Outcome> outcomes_; ///< by cluster that is mapped out
-    std::vector<Fate> fates_;       ///< by member
+    Remaking remaking_;
+    std::vector<std::uint32_t> near_counts_; ///< by slot: members that may be struck
+    std::vector<Struck> struck_;             ///< in order of slots
+    std::vector<Flown> flown_;               ///< struck cluster by struck cluster; as long as it ever was
+    std::vector<std::uint32_t> rows_;        ///< likewise: where they are stored
+    std::vector<Parting> partings_;
+    std::size_t struck_members_ = 0; ///< of the clusters struck in the last frame
     std::uint64_t left_out_ = 0;
 };
 

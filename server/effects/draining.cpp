@@ -1,25 +1,10 @@
 #include "effects/draining.hpp"
 
+#include "cluster/bounds.hpp"
 #include "core/make_room.hpp"
 #include "core/parallel.hpp"
 
 namespace slod {
-namespace {
-
-/// No less than bounding_radius(), and much faster where maps are closed forms of the age: no mean of what
-/// members have stored is longer than the longest.
-double generous_radius(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
-{
-    const ClusterTable& clusters = store.clusters;
-    if (store.rule.kind == MapKind::Full)
-        return bounding_radius(clusters, store.rule, slot, frame);
-    const double offset = 2 * double(clusters.offset_max[slot]), speed = 2 * double(clusters.speed_max[slot]);
-    const bool drifts = store.rule.kind == MapKind::Scalar;
-    return drifts ? offset + store.drift(frame - clusters.formed_frame[slot]) * speed : offset;
-}
-
-} // namespace
-
 void Draining::reserve(const ClusterTable& clusters, std::size_t member_count)
 {
     remaking_.reserve(clusters, member_count);
@@ -39,7 +24,7 @@ void Draining::remember(const UpdateContext& context)
         for (std::size_t slot = first; slot < last; ++slot)
             if (clusters.alive(slot))
                 past_[slot] = {past_of(clusters, slot),
-                               generous_radius(context.store, slot, context.frame - 1)};
+                               generous_bounds(context.store, slot, context.frame - 1).radius};
     });
 }
 
@@ -87,7 +72,7 @@ bool Draining::may_meet_one(const UpdateContext& context, std::size_t slot) cons
         const double radius = (std::max(now, before) + half_way) * (1 + 1e-5);
         return sinks_.reach(centre, radius + 1e-15 * centre.cwiseAbs().maxCoeff());
     };
-    return reach(generous_radius(context.store, slot, context.frame)) &&
+    return reach(generous_bounds(context.store, slot, context.frame).radius) &&
            reach(bounding_radius(clusters, context.store.rule, slot, context.frame));
 }
 

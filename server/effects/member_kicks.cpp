@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cluster/bounds.hpp"
 #include "core/random.hpp"
 
 namespace slod {

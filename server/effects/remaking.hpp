@@ -28,7 +28,7 @@ public:
     /// and so many more.
     std::size_t expected_members(std::size_t particle_count, std::size_t more = 4096) const
     {
-        return std::min(particle_count, 2 * members_.size() + more);
+        return std::min(particle_count, 2 * member_count_ + more);
     }
 
     /// Provides memory for so many members, in the clusters there is room for, and for groups of them.
@@ -79,18 +79,22 @@ public:
     {
         return std::span(members_).subspan(mapped.first, mapped.count);
     }
-    std::size_t member_count() const { return members_.size(); } ///< of all that are mapped out
+    std::size_t member_count() const { return member_count_; } ///< of all that are mapped out
 
     /// Lets a cluster end, and has it formed anew of those members that do not die by the frame, with the
     /// room that it had for strays.
     void remake(const Mapped& mapped, const UpdateContext& context);
 
-    // The same in parts, for clusters that leave several groups, or none.
-    void end(const Mapped& mapped) { ending_.push_back(mapped.slot); }
-    void take(const Particle& member) { grouping_.particles.push_back(member); }
+    // The same in parts, for clusters that leave several groups, or none, and need not end.
+    void begin(); ///< with none
+    void end(ClusterSlot slot) { ending_.push_back(slot); }
 
-    /// Makes one group, if there are any, of the members taken since the last one, all of one cluster.
-    void close_group(const ClusterTable& clusters, const Mapped& mapped, std::uint32_t spare_rows = 0);
+    /// Adds a group of so many members of one cluster, for the caller to write into particles() from the
+    /// number on that grouped() was before.
+    void add_group(const ClusterTable& clusters, ClusterSlot slot, std::uint32_t count,
+                   std::uint32_t spare_rows = 0);
+    std::uint32_t grouped() const { return std::uint32_t(grouping_.particles.size()); } ///< members so far
+    std::span<Particle> particles() { return grouping_.particles; }
 
     /// Forms what is to be remade, and puts it where it is.
     void form(SlodTree& tree, const UpdateContext& context);
@@ -100,7 +104,8 @@ private:
 
     std::vector<std::uint8_t> marks_; ///< by slot
     std::vector<Mapped> mapped_;
-    std::vector<Particle> members_;
+    std::vector<Particle> members_; ///< of those mapped out; as long as it ever was
+    std::size_t member_count_ = 0;
     std::vector<ClusterSlot> ending_;
     std::vector<Measured> measured_; ///< by group
     Grouping grouping_;

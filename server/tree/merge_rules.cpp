@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cluster/bounds.hpp"
 #include "core/portable_math.hpp"
 
 namespace slod {

@@ -165,6 +165,46 @@ TEST(Collisions, LeaveClustersThatTouchNothingAsTheyAre)
         EXPECT_EQ(a[i].position, b[i].position);
 }
 
+// A flat disc of radius 1, as high as a tenth of that over the ground, sinks towards it: the ball around it
+// is in the ground all the time, its members are for the last frame or two of the fall.
+TEST(Collisions, AskMembersWhereTheBallAroundThemIsInASolid)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_breadth = 8;
+    settings.uniform_gravity.emplace();
+    settings.colliders = {with(plane({0, 0, 0}, {0, 0, 1}), 0.5, 0)};
+    ParticleSet disc = ball(64, 1, 0, 3, {0, 0, 0.1});
+    for (Particle& particle : disc)
+        particle.position.z() = 0.1;
+    Simulation simulation(settings, disc, {});
+    // h^2 n^2 g / 2 is 0.1 after so many frames of length h.
+    const auto falling = int(std::sqrt(0.2 / 9.81) / settings.time.step);
+    for (int frame = 1; frame <= falling; ++frame)
+        ASSERT_EQ(simulation.step({}).counts.struck, 0U) << "frame " << frame;
+    EXPECT_EQ(simulation.step({}).counts.impacts, disc.size());
+}
+
+// One of two falls onto the ground; the other one flies on in the cluster that both were in.
+TEST(Collisions, LeaveMembersThatTouchNothingInTheirClusters)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.uniform_gravity.emplace();
+    settings.colliders = {with(plane({0, 0, 0}, {0, 0, 1}), 0.5, 0)};
+    const ParticleSet initial{{{0, 0, 0.02}, {0, 0, -1}, 1, 1}, {{0, 0, 0.4}, {0, 0, -1}, 2, 1}};
+    Simulation simulation(settings, initial, {});
+    const std::vector<std::uint64_t> formations = simulation.snapshot({.clusters = true}).clusters.formation;
+    ASSERT_EQ(formations.size(), 1U);
+    int frame = 0;
+    while (frame < 10 && simulation.step({.clusters = true}).counts.impacts == 0)
+        ++frame;
+    const Snapshot& now = simulation.snapshot({.clusters = true});
+    ASSERT_EQ(now.clusters.formation.size(), 2U);
+    EXPECT_EQ(now.clusters.formation.front(), formations.front());
+    const ParticleSet particles = simulation.particles();
+    EXPECT_GT(particles[0].velocity.z(), 0);
+    EXPECT_LT(particles[1].velocity.z(), -1);
+}
+
 // Two that attract each other under drag, beside a wall so near that the bend of its way in the first frame,
 // an eighth of 1/64^2, might take one of them there.
 TEST(Collisions, LeaveSingleParticlesThatTouchNothingOnTheirWays)

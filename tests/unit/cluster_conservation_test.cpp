@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "cluster/conserved.hpp"
+#include "cluster/sums_problems.hpp"
 #include "support/clouds.hpp"
 #include "support/little_worlds.hpp"
 #include "support/totals.hpp"
@@ -93,6 +96,40 @@ TEST_P(ConservationByMap, ReformationConserves)
     regroup(slots, 9);
     EXPECT_EQ(world.store.clusters.alive_count(), 9U);
     expect_conserved(before);
+}
+
+// Those that stay are where the map had them, up to what the sums over them round in double: no offset is
+// stored anew. Their bounds and sums are their own.
+TEST_P(ConservationByMap, MembersThatAreReleasedTakeWhatIsTheirs)
+{
+    ClusterTable& clusters = world.store.clusters;
+    const ClusterSlot slot = slots.front();
+    const ParticleSet all = test::members(world.store, slot, age);
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t row = 0; row < clusters.stored[slot.index]; row += 3)
+        rows.push_back(row);
+    const Slab old = clusters.slab[slot.index];
+    std::vector<std::uint64_t> released;
+    for (const std::uint32_t row : rows)
+        released.push_back(world.store.members.ids(old)[row]);
+    const auto left = std::uint32_t(all.size() - rows.size());
+    release_members(world.store, slot, world.store.members.allocate(left), rows, age);
+    world.region().pools[clusters.pool[slot.index].index].members -= std::uint32_t(rows.size());
+
+    std::erase_if(before, [&](const Particle& particle) {
+        return std::find(released.begin(), released.end(), particle.id) != released.end();
+    });
+    expect_conserved(before);
+    EXPECT_EQ(sums_problems(world.store, age), Problems{});
+    const ParticleSet kept = test::members(world.store, slot, age);
+    ASSERT_EQ(kept.size(), left);
+    for (const Particle& particle : kept) {
+        const auto was = std::find_if(all.begin(), all.end(),
+                                      [&](const Particle& each) { return each.id == particle.id; });
+        ASSERT_NE(was, all.end());
+        EXPECT_LE((particle.position - was->position).norm(), 1e-13 * was->position.norm());
+        EXPECT_LE((particle.velocity - was->velocity).norm(), 1e-13 * was->velocity.norm());
+    }
 }
 
 TEST_P(ConservationByMap, BirthsAddWhatIsBorn)

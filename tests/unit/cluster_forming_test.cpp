@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cluster/bounds.hpp"
 #include "cluster/conserved.hpp"
 #include "cluster/forming.hpp"
 #include "support/clouds.hpp"
