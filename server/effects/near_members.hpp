@@ -11,8 +11,8 @@
 namespace slod {
 
 /// Which members of a cluster may come through the fences about its centre during a flight. How high a member
-/// is above a fence, at the flight's start and at its end, is linear in what it has stored of its forming: two
-/// sums of six products each. In between, its path is no lower than the lower one, less what it sags.
+/// is above a fence, at the flight's start and at its end, is linear in what it has stored of its forming:
+/// two sums of six products each. In between, its path is no lower than the lower one, less what it sags.
 class NearMembers {
 public:
     /// How members fly from the end of `frame` on: as the map has them, but for their velocity.

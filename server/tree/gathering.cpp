@@ -1,19 +1,14 @@
 #include "tree/gathering.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "tree/grouping.hpp"
 
 namespace slod {
-namespace {
-
-constexpr std::uint64_t merge_period = 16; ///< every pool looks for merges once in so many frames
-
-} // namespace
-
 void Gathering::reserve(std::size_t count)
 {
     groups.reserve(count);
@@ -22,7 +17,7 @@ void Gathering::reserve(std::size_t count)
     next_.reserve(count);
     parts_.reserve(count);
     balls_.reserve(count);
-    looked_at_.reserve(count);
+    found_.reserve(count);
 }
 
 std::uint64_t Gathering::find(const SlodTree& tree, const ClusterStore& store, std::uint64_t frame,
@@ -41,23 +36,46 @@ std::uint64_t Gathering::find(const SlodTree& tree, const ClusterStore& store, s
             continue;
         const Search search{subtree, store, frame, surroundings[subtree.region], MergeRules(subtree.settings),
                             0};
-        const std::size_t turn = frame % merge_period;
-        const std::size_t turns = (subtree.pools.size() + merge_period - 1 - turn) / merge_period;
-        looked_at_.assign(turns, 0);
+        const std::size_t turn = frame % period;
+        const std::size_t turns = (subtree.pools.size() + period - 1 - turn) / period;
+        found_.assign(turns, {});
         for_each_block(turns, 4, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                looked_at_[i] = search_pool(search, subtree.pools[i * merge_period + turn]);
+                found_[i] = search_pool(search, subtree.pools[i * period + turn]);
         });
-        looked_at = std::accumulate(looked_at_.begin(), looked_at_.end(), looked_at);
-        for (std::size_t i = 0; i < turns; ++i)
-            list_groups(store.clusters, subtree.pools[i * merge_period + turn]);
+        for (std::size_t i = 0; i < turns; ++i) {
+            looked_at += found_[i].looked_at;
+            if (found_[i].groups)
+                list_groups(store.clusters, subtree.pools[i * period + turn]);
+        }
     }
     return looked_at;
 }
 
-/// Leaves out those that move at their first particle's velocity: formed anew, they would lose it.
-std::uint64_t Gathering::search_pool(Search search, const Pool& pool)
+/// Whether the pool's smallest clusters are small enough: for no number of parts there may be one more.
+bool Gathering::may_gather(const Search& search, const Pool& pool)
 {
+    const ClusterTable& table = search.store.clusters;
+    std::array<std::uint64_t, most_parts + 1> least; // in order
+    least.fill(std::numeric_limits<std::uint32_t>::max());
+    for (ClusterSlot slot = pool.first; slot.valid(); slot = table.next[slot.index]) {
+        std::uint64_t count = table.count[slot.index];
+        for (std::uint64_t& each : least)
+            if (count < each)
+                std::swap(count, each);
+    }
+    std::uint64_t members = least[0];
+    for (std::uint32_t parts = 1; parts <= most_parts; ++parts)
+        if ((members += least[parts]) <= std::uint64_t(parts) * search.tree.growth_limit())
+            return true;
+    return false;
+}
+
+/// Leaves out those that move at their first particle's velocity: formed anew, they would lose it.
+Gathering::Found Gathering::search_pool(Search search, const Pool& pool)
+{
+    if (pool.clusters < 2 || !may_gather(search, pool))
+        return {};
     const ClusterTable& table = search.store.clusters;
     search.smallest = std::numeric_limits<std::uint32_t>::max();
     for (ClusterSlot slot = pool.first; slot.valid(); slot = table.next[slot.index]) {
@@ -68,17 +86,22 @@ std::uint64_t Gathering::search_pool(Search search, const Pool& pool)
         search.smallest = std::min(search.smallest, table.count[slot.index]);
         balls_[slot.index] = velocity_ball(search.store, slot.index, search.frame, search.reference);
     }
-    std::uint64_t looked_at = 0;
+    Found found;
     for (ClusterSlot seed = pool.first; seed.valid(); seed = table.next[seed.index])
         for (std::uint32_t parts = 1; parts <= most_parts && places_[seed.index] == Place::Free; ++parts)
-            gather(search, seed, parts, looked_at);
-    return looked_at;
+            if (gather(search, seed, parts, found.looked_at))
+                found.groups = true;
+    return found;
 }
 
-/// Makes the cluster the seed of those that it gathers, if that is one more than `parts` at least.
-void Gathering::gather(const Search& search, ClusterSlot seed, std::uint32_t parts, std::uint64_t& looked_at)
+/// Makes the cluster the seed of those that it gathers, if that is one more than `parts` at least; returns
+/// whether it is.
+bool Gathering::gather(const Search& search, ClusterSlot seed, std::uint32_t parts, std::uint64_t& looked_at)
 {
     const ClusterTable& table = search.store.clusters;
+    if (table.count[seed.index] + std::uint64_t(parts) * search.smallest >
+        std::uint64_t(parts) * search.tree.growth_limit())
+        return false;
     Heap heap{parts, 1, table.count[seed.index], balls_[seed.index], crowd(search, seed)};
     next_[seed.index] = {};
     places_[seed.index] = Place::Seed;
@@ -95,9 +118,11 @@ void Gathering::gather(const Search& search, ClusterSlot seed, std::uint32_t par
         heap.crowd = heap.crowd + crowd(search, nearest);
     }
     parts_[seed.index] = clusters_for(heap.members, search.tree.growth_limit());
-    if (heap.clusters <= parts_[seed.index])
-        for (ClusterSlot slot = seed; slot.valid(); slot = next_[slot.index])
-            places_[slot.index] = Place::Free;
+    if (heap.clusters > parts_[seed.index])
+        return true;
+    for (ClusterSlot slot = seed; slot.valid(); slot = next_[slot.index])
+        places_[slot.index] = Place::Free;
+    return false;
 }
 
 /// The nearest one after the seed that the heap may take, and still become fewer clusters than it has then.

@@ -19,6 +19,7 @@ public:
     /// A bound for pools that cannot be divided however many clusters they hold; elsewhere few have so many.
     static constexpr std::uint32_t most_candidates = 256;
     static constexpr std::uint32_t most_parts = 2;
+    static constexpr std::uint64_t period = 16; ///< every pool looks for merges once in so many frames
 
     /// Clusters of one pool that become fewer.
     struct Group {
@@ -59,8 +60,15 @@ private:
         Crowd crowd;
     };
 
-    std::uint64_t search_pool(Search search, const Pool& pool);
-    void gather(const Search& search, ClusterSlot seed, std::uint32_t parts, std::uint64_t& looked_at);
+    /// What searching a pool came to.
+    struct Found {
+        std::uint64_t looked_at = 0; ///< candidates
+        bool groups = false;         ///< are there
+    };
+
+    Found search_pool(Search search, const Pool& pool);
+    static bool may_gather(const Search& search, const Pool& pool);
+    bool gather(const Search& search, ClusterSlot seed, std::uint32_t parts, std::uint64_t& looked_at);
     ClusterSlot nearest_later(const Search& search, ClusterSlot seed, const Heap& heap,
                               std::uint64_t& looked_at) const;
     static Crowd crowd(const Search& search, ClusterSlot slot);
@@ -68,11 +76,11 @@ private:
 
     enum class Place : std::uint8_t { Free, Out, Seed, Follower };
 
-    std::vector<Place> places_;            ///< by slot, in a group or not
-    std::vector<ClusterSlot> next_;        ///< by slot: the next one that the same seed gathered
-    std::vector<std::uint32_t> parts_;     ///< by slot of a seed
-    std::vector<VelocityBall> balls_;      ///< by slot, of those that are not out
-    std::vector<std::uint64_t> looked_at_; ///< candidates, by pool in its turn
+    std::vector<Place> places_;        ///< by slot, in a group or not
+    std::vector<ClusterSlot> next_;    ///< by slot: the next one that the same seed gathered
+    std::vector<std::uint32_t> parts_; ///< by slot of a seed
+    std::vector<VelocityBall> balls_;  ///< by slot, of those that are not out
+    std::vector<Found> found_;         ///< by pool in its turn
 };
 
 } // namespace slod

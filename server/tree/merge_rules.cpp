@@ -149,9 +149,14 @@ bool too_wide(const ClusterStore& store, const RegionSettings& region, ClusterSl
         return true;
     if (!std::isfinite(region.max_breadth))
         return false;
-    const Moments& moments = clusters.counting_moments(slot.index);
     const double limit = age < excess_frames ? breadth_goal(region, count) : region.max_breadth;
-    if (store.rule.kind == MapKind::Scalar) { // most clusters are nowhere near their limit
+    if (store.rule.kind != MapKind::Full) { // most clusters are nowhere near their limit
+        const double radius = generous_bounds(store, slot.index, frame).radius * (1 + 1e-5); // of floats
+        if (radius * radius <= largest_variance_sum(limit, 1))
+            return false;
+    }
+    const Moments& moments = clusters.counting_moments(slot.index);
+    if (store.rule.kind == MapKind::Scalar) {
         const double trace = streamed_trace(moments, store.drift(age));
         if (trace * (1 + 1e-9) <= largest_variance_sum(limit, moments.weight))
             return false;

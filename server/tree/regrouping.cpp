@@ -14,8 +14,17 @@ constexpr std::size_t most_blocks = 64;      ///< of clusters whose velocities a
 constexpr std::uint64_t revision_period = 8; ///< frames between revisions of a leaf
 /// Frames over which a region's clusters are split when its maximum size falls: a sweep, not a stroke.
 constexpr std::uint64_t split_period = 8;
-/// Of the pool limit; apart, as clusters come and go. A flooded leaf does not wait for its turn.
-constexpr double flooded = 4, crowded = 1.4, sparse = 0.7;
+/// Of the pool limit; apart, as clusters come and go.
+constexpr double crowded = 1.4, sparse = 0.7;
+
+/// Whether all the pool's clusters are in its leaf.
+bool holds_all(const Subtree& subtree, const ClusterTable& clusters, std::uint32_t pool)
+{
+    for (ClusterSlot slot = subtree.pools[pool].first; slot.valid(); slot = clusters.next[slot.index])
+        if (!holds(subtree, {pool}, clusters.position[slot.index]))
+            return false;
+    return true;
+}
 
 } // namespace
 
@@ -31,6 +40,7 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
     gathering_.reserve(clusters);
     split_memory_.reserve(clusters);
     revisions_.reserve(tree.subtrees.size());
+    turns_.reserve(tree);
     held_.reserve(context_.store.clusters.columns.withheld ? clusters : 0);
     for (auto* list : {&crossing_, &splitting_})
         list->reserve(clusters);
@@ -39,6 +49,9 @@ void Regrouping::reserve(const SlodTree& tree, std::size_t particle_count)
 void Regrouping::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)
 {
     context_.frame = frame;
+    // Forces are evaluated over the pools; and rigid clusters move in the tree as the paper has it, just when
+    // they cross a face (section 4.3).
+    turns_.give(tree, frame, motion_ == Motion::Rigid || context_.store.clusters.columns.acceleration);
     plan(tree, counts);
     move_crossing(tree, counts);
     split(tree, counts);
@@ -79,11 +92,12 @@ Regrouping::Action Regrouping::action(const SlodTree& tree, std::size_t slot, Se
     const ClusterTable& clusters = context_.store.clusters;
     const Subtree& subtree = tree.subtrees[clusters.region[slot]];
     const std::uint32_t count = clusters.count[slot];
-    if (count > subtree.split_size(clusters.formation[slot]) && (slot + context_.frame) % split_period == 0)
+    if ((slot + context_.frame) % split_period == 0 && count > subtree.split_size(clusters.formation[slot]))
         return Action::Split;
     if (too_wide(context_.store, subtree.settings, {std::uint32_t(slot)}, context_.frame))
         return Action::Split;
-    return crosses(tree, slot, search) ? Action::Cross : Action::Stay;
+    return turns_.has(subtree, clusters.pool[slot].index) && crosses(tree, slot, search) ? Action::Cross
+                                                                                         : Action::Stay;
 }
 
 /// Whether the cluster has left its leaf or belongs to another region; where it goes is in `targets_`. The
@@ -94,7 +108,8 @@ bool Regrouping::crosses(const SlodTree& tree, std::size_t slot, Search& search)
     const ClusterTable& clusters = context_.store.clusters;
     const Subtree& subtree = tree.subtrees[clusters.region[slot]];
     const PoolId pool = clusters.pool[slot];
-    const Subject subject = subject_of(clusters, slot);
+    const Subject subject =
+        turns_.all_at_once() ? subject_of(clusters, slot) : Subject(clusters.position[slot]);
     const bool stays = holds(subtree, pool, subject);
     const bool contested = subtree.nodes[subtree.pools[pool.index].node.index].contested;
     if (stays && !contested)
@@ -108,10 +123,16 @@ bool Regrouping::crosses(const SlodTree& tree, std::size_t slot, Search& search)
     return true;
 }
 
+/// One after the other, as lists are in the order of arrival; their ends are all over the memory, and are
+/// asked for in time.
 void Regrouping::move_crossing(SlodTree& tree, UpdateCounts& counts)
 {
     ClusterTable& clusters = context_.store.clusters;
-    for (const ClusterSlot slot : crossing_) {
+    constexpr std::size_t ahead = 8;
+    for (std::size_t i = 0; i < crossing_.size(); ++i) {
+        if (i + ahead < crossing_.size())
+            fetch_links(tree, crossing_[i + ahead]);
+        const ClusterSlot slot = crossing_[i];
         if (!clusters.position[slot.index].allFinite())
             refuse_unbounded(context_.frame);
         const PoolRef from{clusters.region[slot.index], clusters.pool[slot.index]};
@@ -124,6 +145,23 @@ void Regrouping::move_crossing(SlodTree& tree, UpdateCounts& counts)
         link(tree.of(to), clusters, to.pool, slot);
         ++counts.crossings;
     }
+}
+
+/// Has the processor fetch what unlinking the cluster and linking it where it goes will write.
+void Regrouping::fetch_links(const SlodTree& tree, ClusterSlot slot) const
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    if (const ClusterSlot next = clusters.next[slot.index]; next.valid())
+        __builtin_prefetch(&clusters.previous[next.index], 1);
+    if (const ClusterSlot previous = clusters.previous[slot.index]; previous.valid())
+        __builtin_prefetch(&clusters.next[previous.index], 1);
+    __builtin_prefetch(&tree.pool({clusters.region[slot.index], clusters.pool[slot.index]}), 1);
+    const PoolRef to = targets_[slot.index];
+    if (!to.valid())
+        return;
+    __builtin_prefetch(&tree.pool(to), 1);
+    if (const ClusterSlot first = tree.pool(to).first; first.valid())
+        __builtin_prefetch(&clusters.previous[first.index], 1);
 }
 
 void Regrouping::split(SlodTree& tree, UpdateCounts& counts)
@@ -313,16 +351,24 @@ void Regrouping::revise(SlodTree& tree, UpdateCounts& counts)
 }
 
 /// A pool in its turn, and at once where a region has come or changed its cells and its clusters are all in a
-/// few leaves.
+/// few leaves. By clusters that have left its leaf it cannot be divided.
+bool Regrouping::to_be_revised(const Subtree& subtree, std::uint32_t pool) const
+{
+    if (!subtree.pools[pool].node.valid())
+        return false;
+    if (turns_.all_at_once())
+        return (pool + context_.frame) % revision_period == 0 || flooded(subtree, pool);
+    return turns_.has(subtree, pool) && holds_all(subtree, context_.store.clusters, pool);
+}
+
 void Regrouping::revise(Subtree& subtree, Revision& revision)
 {
     ClusterTable& clusters = context_.store.clusters;
     const auto least = std::uint32_t(sparse * subtree.pool_limit());
-    const double flood = flooded * subtree.pool_limit(), most = crowded * subtree.pool_limit();
+    const double most = crowded * subtree.pool_limit();
     const SplitScratch scratch = split_memory_.slice(revision.first, revision.clusters);
     for (std::uint32_t pool = 0; pool < subtree.pools.size(); ++pool) { // grows
-        const bool turn = (pool + context_.frame) % revision_period == 0;
-        if (!subtree.pools[pool].node.valid() || (!turn && subtree.pools[pool].members <= flood))
+        if (!to_be_revised(subtree, pool))
             continue;
         if (subtree.pools[pool].members < least)
             prune(subtree, clusters, {pool}, least);

@@ -8,18 +8,21 @@
 #include "tree/crowded.hpp"
 #include "tree/gathering.hpp"
 #include "tree/grouping.hpp"
+#include "tree/pool_turns.hpp"
 #include "tree/slod_tree.hpp"
 
 namespace slod {
 
 /// The update of clusters whose maps do not age: those of exact flow maps, of rigid motion (O'Brien et
 /// al. 2001, sections 4.1 and 4.3) and single particles. A cluster whose centre crosses into another leaf
-/// or region moves to that one's pool; one that has become too large or too wide is split; where the tree has
-/// `merging`, those of one pool merge that together are small enough and move alike.
+/// or region moves to that one's pool, at once where the pools say what acts on it or what region it is in,
+/// and in turns where they only say what it may merge with; one that has become too large or too wide is
+/// split; where the tree has `merging`, those of one pool merge that together are small enough and move
+/// alike.
 class Regrouping {
 public:
     Regrouping(const MotionSettings& motion, const UpdateContext& context)
-        : merged_velocities_(motion.merged_velocities), context_(context)
+        : motion_(motion.motion), merged_velocities_(motion.merged_velocities), context_(context)
     {}
 
     /// Divides clusters by their members' velocities, wherever those are, until in each of them the region's
@@ -59,10 +62,12 @@ private:
         std::uint64_t keys = 0;
     };
 
+    bool to_be_revised(const Subtree& subtree, std::uint32_t pool) const;
     void plan(const SlodTree& tree, UpdateCounts& counts);
     Action action(const SlodTree& tree, std::size_t slot, Search& search);
     bool crosses(const SlodTree& tree, std::size_t slot, Search& search);
     void move_crossing(SlodTree& tree, UpdateCounts& counts);
+    void fetch_links(const SlodTree& tree, ClusterSlot slot) const;
     void split(SlodTree& tree, UpdateCounts& counts);
     void note_held_velocities();
     void hold_velocities();
@@ -74,8 +79,10 @@ private:
     void revise(SlodTree& tree, UpdateCounts& counts);
     void revise(Subtree& subtree, Revision& revision);
 
+    Motion motion_;
     MergedVelocities merged_velocities_;
     UpdateContext context_;
+    PoolTurns turns_;
     Grouping grouping_;
     Gathering gathering_;
     std::vector<Action> actions_;  ///< by slot
