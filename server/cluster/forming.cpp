@@ -176,10 +176,11 @@ void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> 
     ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
     SLOD_ASSERT(!particles.empty() && particles.size() <= clusters.slab[slot].capacity);
-    if (clusters.columns.expiry)
-        std::sort(particles.begin(), particles.end(), [](const Particle& a, const Particle& b) {
-            return std::tie(a.expiry_frame, a.id) < std::tie(b.expiry_frame, b.id);
-        });
+    const auto sooner = [](const Particle& a, const Particle& b) {
+        return std::tie(a.expiry_frame, a.id) < std::tie(b.expiry_frame, b.id);
+    };
+    if (clusters.columns.expiry && !std::is_sorted(particles.begin(), particles.end(), sooner))
+        std::sort(particles.begin(), particles.end(), sooner);
     const Centre centre = centre_of(particles);
     start_columns(store, slot, centre, frame);
     const Rows rows = rows_of(store.members, clusters.slab[slot]);

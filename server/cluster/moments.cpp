@@ -31,16 +31,6 @@ Matrix3d mapped_square(const CentralMoments& sums, const Matrix3d& p, const Matr
 
 } // namespace
 
-void Moments::add(double member_weight, const Vector3d& offset, const Vector3d& velocity)
-{
-    weight += member_weight;
-    o += member_weight * offset;
-    w += member_weight * velocity;
-    oo += Symmetric3::square(member_weight, offset);
-    ww += Symmetric3::square(member_weight, velocity);
-    ow += member_weight * offset * velocity.transpose();
-}
-
 MappedMoments map_moments(const Moments& moments, const MapBlocks& map)
 {
     const CentralMoments sums = central(moments);

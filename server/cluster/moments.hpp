@@ -17,7 +17,15 @@ struct Moments {
     Matrix3d ow = Matrix3d::Zero(); ///< S: sum of weight o w^T
 
     /// Adds a member.
-    void add(double member_weight, const Vector3d& offset, const Vector3d& velocity);
+    void add(double member_weight, const Vector3d& offset, const Vector3d& velocity)
+    {
+        weight += member_weight;
+        o += member_weight * offset;
+        w += member_weight * velocity;
+        oo += Symmetric3::square(member_weight, offset);
+        ww += Symmetric3::square(member_weight, velocity);
+        ow += member_weight * offset * velocity.transpose();
+    }
 
     Vector3d mean_offset() const { return weight > 0 ? Vector3d(o / weight) : Vector3d(0, 0, 0); }
     Vector3d mean_velocity() const { return weight > 0 ? Vector3d(w / weight) : Vector3d(0, 0, 0); }

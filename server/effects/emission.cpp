@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
+
+#include "core/parallel.hpp"
 
 namespace slod {
 namespace {
@@ -16,13 +17,6 @@ double mean_age(std::span<const DivisionKey> keys, std::span<const Newborn> newb
     for (const DivisionKey& key : keys)
         sum += newborns[key.index].age;
     return sum / double(keys.size());
-}
-
-/// The earliest of them.
-const Newborn& first_of(std::span<const DivisionKey> keys, std::span<const Newborn> newborns)
-{
-    const auto earlier = [](const DivisionKey& a, const DivisionKey& b) { return a.index < b.index; };
-    return newborns[std::min_element(keys.begin(), keys.end(), earlier)->index];
 }
 
 bool by_first_particle(const SlodTree& tree, const ClusterTable& clusters, std::size_t slot)
@@ -94,14 +88,15 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     const auto count = std::uint32_t(newborns_.size() - first);
     const double lifetime = emitters_[emitter].settings().lifetime;
     const double ahead = std::isfinite(lifetime) ? 0.5 * lifetime : mid_life_;
+    const std::span<const Newborn> founders = std::span(newborns_).subspan(first);
     grouping_.clear();
     grouping_.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Newborn& born = newborns_[first + i];
-        grouping_.particles[i] = born.particle;
-        grouping_.place[i] = born.particle.position + ahead * born.particle.velocity;
-    }
-    std::iota(grouping_.order.begin(), grouping_.order.end(), 0U);
+    for_each_block(count, 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Particle& particle = grouping_.particles[i] = founders[i].particle;
+            grouping_.place[i] = particle.position + ahead * particle.velocity;
+        }
+    });
     const Particle& founder = grouping_.particles.front();
     const RegionRow region =
         tree.region_at({founder.position, double(founder.mass), founder.velocity.norm()});
@@ -110,19 +105,20 @@ void Emission::found(SlodTree& tree, std::size_t emitter, std::size_t first, con
     const bool open = parts == 1 && count < most;
     grouping_.groups.push_back(
         {.pool = {region, {}}, .count = count, .clusters = parts, .spare_rows = open ? most - count : 0});
-    form_groups(grouping_, context);
-    const std::span<const DivisionKey> keys(grouping_.keys);
-    for (std::uint32_t part = 0; part < parts; ++part) {
-        const ClusterSlot slot = grouping_.slots[part];
-        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
-        link(tree.of(pool), clusters, pool.pool, slot);
-        const std::uint32_t begin = part_begin(count, parts, part);
-        const std::span<const Newborn> founders = std::span(newborns_).subspan(first);
-        const std::span<const DivisionKey> of_part = keys.subspan(begin, clusters.count[slot.index]);
-        if (by_first_particle(tree, clusters, slot.index))
-            hold_velocity(clusters, slot.index, first_of(of_part, founders).particle.velocity);
-        new_clusters_.push_back({clusters.id(slot.index), mean_age(of_part, founders)});
-    }
+    form_groups_in_order(grouping_, context);
+    link_where_they_are(tree, grouping_, context);
+    const std::size_t before = new_clusters_.size();
+    new_clusters_.resize(before + parts);
+    for_each_block(parts, 16, [&](std::size_t begin, std::size_t end) {
+        for (auto part = std::uint32_t(begin); part < end; ++part) {
+            const std::size_t slot = grouping_.slots[part].index;
+            const auto keys = std::span<const DivisionKey>(grouping_.keys)
+                                  .subspan(part_begin(count, parts, part), clusters.count[slot]);
+            if (by_first_particle(tree, clusters, slot)) // which comes first in its part, too
+                hold_velocity(clusters, slot, founders[keys.front().index].particle.velocity);
+            new_clusters_[before + part] = {clusters.id(slot), mean_age(keys, founders)};
+        }
+    });
     cohorts_[emitter] = open ? clusters.id(grouping_.slots.front().index) : ClusterId{};
 }
 

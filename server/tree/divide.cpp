@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <limits>
 
 #include "core/parallel.hpp"
+#include "core/vectors.hpp"
 
 namespace slod {
 namespace {
@@ -17,38 +20,92 @@ std::uint32_t lower_count(std::uint32_t count, std::uint32_t parts)
     return std::uint32_t(std::uint64_t{count} * (parts / 2) / parts);
 }
 
-int longest_axis(std::span<const DivisionKey> keys)
+/// The longest side of what the keys span.
+struct Side {
+    std::size_t axis = 0;
+    float lower = 0, length = 0;
+};
+
+Side longest_side(std::span<const DivisionKey> keys)
 {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    std::array<float, 3> lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+    Vector3f lower = Vector3f::Constant(std::numeric_limits<float>::infinity()), upper = -lower;
     for (const DivisionKey& key : keys) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lower[axis] = std::min(lower[axis], key.x[axis]);
-            upper[axis] = std::max(upper[axis], key.x[axis]);
-        }
+        const Eigen::Map<const Vector3f> x(key.x);
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
     }
-    int longest = 0;
+    const Vector3f length = upper - lower;
+    Side longest{0, lower[0], length[0]};
     for (int axis = 1; axis < 3; ++axis)
-        if (upper[std::size_t(axis)] - lower[std::size_t(axis)] >
-            upper[std::size_t(longest)] - lower[std::size_t(longest)])
-            longest = axis;
+        if (length[axis] > longest.length)
+            longest = {std::size_t(axis), lower[axis], length[axis]};
     return longest;
+}
+
+/// Orders keys along an axis and those of one place by index. Numbers are in the order of their bits, but for
+/// negative ones, which are in the reverse one; so all have a place, also what is no number.
+std::uint64_t rank_of(const DivisionKey& key, std::size_t axis)
+{
+    const auto bits = std::bit_cast<std::uint32_t>(key.x[axis] + 0.0F); // there is one zero
+    const std::uint32_t ordered = bits ^ (bits >> 31 != 0 ? 0xffff'ffffU : 0x8000'0000U);
+    return std::uint64_t{ordered} << 32 | key.index;
+}
+
+/// The rank that `lower` of the keys are below. A histogram finds the few to choose it from, without a branch
+/// that depends on where a key is: no processor could foretell those.
+std::uint64_t rank_at(std::span<const DivisionKey> keys, const Side& side, std::uint32_t lower,
+                      std::span<DivisionKey> spare)
+{
+    constexpr std::size_t bins = 256;
+    const float per_length = float(bins) / side.length;
+    const auto bin_of = [&](const DivisionKey& key) {
+        const float bin = (key.x[side.axis] - side.lower) * per_length;
+        return std::size_t(std::min(float(bins - 1), bin)); // also of what is no number
+    };
+    std::array<std::uint32_t, bins> counts{};
+    for (const DivisionKey& key : keys)
+        ++counts[bin_of(key)];
+    std::size_t bin = 0;
+    for (; lower >= counts[bin]; ++bin)
+        lower -= counts[bin];
+    std::size_t found = 0;
+    for (const DivisionKey& key : keys) {
+        spare[found] = key;
+        found += bin_of(key) == bin ? 1 : 0;
+    }
+    const auto before = [&](const DivisionKey& a, const DivisionKey& b) {
+        return rank_of(a, side.axis) < rank_of(b, side.axis);
+    };
+    std::nth_element(spare.begin(), spare.begin() + lower, spare.begin() + std::ptrdiff_t(found), before);
+    return rank_of(spare[lower], side.axis);
+}
+
+/// Puts the first `lower` keys along the longest side in front of the others; both stay in order.
+void halve(std::span<DivisionKey> keys, std::span<DivisionKey> spare, std::uint32_t lower)
+{
+    const Side side = longest_side(keys);
+    const std::uint64_t middle = rank_at(keys, side, lower, spare);
+    std::size_t below = 0, above = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const bool is_below = rank_of(keys[i], side.axis) < middle;
+        const DivisionKey key = keys[i];
+        keys[below] = spare[above] = key;
+        below += is_below ? 1 : 0;
+        above += is_below ? 0 : 1;
+    }
+    std::copy_n(spare.begin(), above, keys.begin() + std::ptrdiff_t(below));
 }
 
 } // namespace
 
-void divide(std::span<DivisionKey> keys, std::uint32_t parts)
+void divide(std::span<DivisionKey> keys, std::span<DivisionKey> spare, std::uint32_t parts)
 {
     if (parts < 2)
         return;
-    const int axis = longest_axis(keys);
     const std::uint32_t lower = lower_count(std::uint32_t(keys.size()), parts);
-    std::nth_element(keys.begin(), keys.begin() + lower, keys.end(),
-                     [axis](const DivisionKey& a, const DivisionKey& b) {
-                         return a.x[axis] != b.x[axis] ? a.x[axis] < b.x[axis] : a.index < b.index;
-                     });
-    const auto divide_lower = [&] { divide(keys.first(lower), parts / 2); };
-    const auto divide_upper = [&] { divide(keys.subspan(lower), parts - parts / 2); };
+    halve(keys, spare, lower);
+    const auto divide_lower = [&] { divide(keys.first(lower), spare.first(lower), parts / 2); };
+    const auto divide_upper = [&] { divide(keys.subspan(lower), spare.subspan(lower), parts - parts / 2); };
     if (keys.size() >= many) {
         run_both(divide_lower, divide_upper);
         return;

@@ -70,12 +70,14 @@ void form_group(Grouping& grouping, const Group& group, const UpdateContext& con
         return;
     const std::span<DivisionKey> keys(grouping.keys.data() + group.first, group.count);
     const Vector3d origin = grouping.place[grouping.order[group.first]];
-    for (std::uint32_t i = 0; i < group.count; ++i) {
-        const std::uint32_t index = grouping.order[group.first + i];
-        const Vector3d x = grouping.place[index] - origin;
-        keys[i] = {{float(x.x()), float(x.y()), float(x.z())}, index};
-    }
-    divide(keys, group.clusters);
+    for_each_block(group.count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t index = grouping.order[group.first + i];
+            const Vector3d x = grouping.place[index] - origin;
+            keys[i] = {{float(x.x()), float(x.y()), float(x.z())}, index};
+        }
+    });
+    divide(keys, std::span(grouping.spare_keys).subspan(group.first, group.count), group.clusters);
     const auto form_parts = [&](std::size_t first, std::size_t last) {
         for (std::size_t part = first; part < last; ++part)
             form_part(grouping, group, std::uint32_t(part), context);
@@ -113,9 +115,11 @@ void Grouping::reserve(std::size_t particle_count, std::size_t group_count, std:
     make_room(pull, particle_count);
     make_room(order, particle_count);
     make_room(keys, particle_count);
+    make_room(spare_keys, particle_count);
     make_room(ordered, particle_count);
     make_room(groups, group_count);
     slots.reserve(cluster_count);
+    homes.reserve(cluster_count);
 }
 
 void dissolve(SlodTree& tree, Grouping& grouping, std::span<const ClusterSlot> slots,
@@ -158,6 +162,7 @@ void end_clusters(SlodTree& tree, std::span<const ClusterSlot> slots, const Upda
 void form_groups(Grouping& grouping, const UpdateContext& context)
 {
     grouping.keys.resize(grouping.order.size());
+    grouping.spare_keys.resize(grouping.order.size());
     grouping.ordered.resize(grouping.order.size());
     take_slots(grouping, context.store);
     for_each_block(grouping.groups.size(), 4, [&](std::size_t begin, std::size_t end) {
@@ -173,13 +178,21 @@ void form_groups_in_order(Grouping& grouping, const UpdateContext& context)
     form_groups(grouping, context);
 }
 
-void link_where_they_are(SlodTree& tree, const Grouping& grouping, const UpdateContext& context)
+void link_where_they_are(SlodTree& tree, Grouping& grouping, const UpdateContext& context)
 {
     ClusterTable& clusters = context.store.clusters;
-    for (const ClusterSlot slot : grouping.slots) {
+    grouping.homes.resize(grouping.slots.size());
+    for_each_block(grouping.slots.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            grouping.homes[i] = locate(tree, subject_of(clusters, grouping.slots[i].index));
+    });
+    for (std::size_t i = 0; i < grouping.slots.size(); ++i) {
+        const ClusterSlot slot = grouping.slots[i];
         if (!clusters.position[slot.index].allFinite())
             refuse_unbounded(context.frame);
-        const PoolRef pool = locate_or_grow(tree, subject_of(clusters, slot.index));
+        PoolRef pool = grouping.homes[i];
+        if (!pool.valid())
+            pool = locate_or_grow(tree, subject_of(clusters, slot.index));
         link(tree.of(pool), clusters, pool.pool, slot);
     }
 }

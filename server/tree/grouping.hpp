@@ -30,10 +30,11 @@ struct Grouping {
     std::vector<std::uint32_t> order; ///< particle indices, group by group
     std::vector<Group> groups;
 
-    // Scratch of form_groups().
+    // Scratch of the functions below.
     std::vector<ClusterSlot> slots;
-    std::vector<DivisionKey> keys;
+    std::vector<DivisionKey> keys, spare_keys;
     std::vector<Particle> ordered;
+    std::vector<PoolRef> homes; ///< by formed cluster: where it is
 
     void clear();
 
@@ -62,7 +63,7 @@ void form_groups_in_order(Grouping& grouping, const UpdateContext& context);
 
 /// Adds the clusters just formed to the pools where their centres are. Throws std::overflow_error as
 /// refuse_unbounded() does.
-void link_where_they_are(SlodTree& tree, const Grouping& grouping, const UpdateContext& context);
+void link_where_they_are(SlodTree& tree, Grouping& grouping, const UpdateContext& context);
 
 /// Adds the clusters just formed to their groups' pools.
 void link_groups(SlodTree& tree, const Grouping& grouping, ClusterTable& clusters);
