@@ -20,6 +20,15 @@ bool meet(const Box& a, const Box& b)
     return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
 }
 
+/// Whether anything within `near` of the first box may be in the second one.
+bool meet(const Box& a, double near, const Box& b)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        if (a.lower[axis] - near > b.upper[axis] || a.upper[axis] + near < b.lower[axis])
+            return false;
+    return true;
+}
+
 /// Lets friction act on what slides: a constant deceleration that is no more than the surfaces' grip, and
 /// just enough to end in rest where that suffices. Returns whether it does.
 bool brake(const Hold& held, const Elapsed& left, Path& path)
@@ -48,7 +57,7 @@ Colliders::Colliders(const std::vector<ColliderSettings>& settings, const Unifor
         std::unique_ptr<Sheet> sheet = solid ? nullptr : make_sheet(each);
         const Box bounds = solid ? solid->bounds() : sheet->bounds();
         all_.push_back({std::move(solid), std::move(sheet), bounds, each.restitution, each.friction,
-                        each.velocity, each.on_hit});
+                        each.velocity, !each.velocity.isZero(0), each.on_hit});
     }
 }
 
@@ -93,12 +102,12 @@ Path Colliders::seen_from(const Collider& collider, const Path& path, double lef
 /// answer costs a fraction of the search for the first impact.
 bool Colliders::passes_all(const Path& path, const Elapsed& whole, double reach) const
 {
-    return std::all_of(all_.begin(), all_.end(), [&](const Collider& collider) {
-        Box way = seen_from(collider, path, whole.time).bounds(whole);
-        const Vector3d near = Vector3d::Constant(touching_distance(collider, path.position) + reach);
-        way.lower -= near;
-        way.upper += near;
-        return !meet(way, collider.bounds);
+    const Box way = path.bounds(whole);
+    return std::none_of(all_.begin(), all_.end(), [&](const Collider& collider) {
+        const double near = touching_distance(collider, path.position) + reach;
+        return collider.moves
+                   ? meet(seen_from(collider, path, whole.time).bounds(whole), near, collider.bounds)
+                   : meet(way, near, collider.bounds);
     });
 }
 

@@ -98,6 +98,7 @@ private:
         Box bounds;
         double restitution, friction;
         Vector3d velocity;
+        bool moves; ///< it is not at rest
         OnHit on_hit;
     };
 
