@@ -24,7 +24,8 @@ constexpr double gain = 1;
 /// samples count: merges come in rounds of 16 frames.
 constexpr double still_size = 1e-3;
 constexpr int patience = 24;
-constexpr double mean_frames = 16; ///< of the crowding
+constexpr int long_patience = 8 * patience; ///< the same where their number is never still: a stream, bursts
+constexpr double mean_frames = 16;          ///< of the crowding
 
 /// Largest difference of the crowding and its mean at which clusters count as still. Their number varies by
 /// its root where they are formed anew now and then.
@@ -44,7 +45,7 @@ ErrorController::ErrorController(const ControlSettings& settings, const ControlS
 void ErrorController::set_scope(const ControlScope& scope)
 {
     scope_ = scope;
-    still_frames_ = 0;
+    same_frames_ = still_frames_ = 0;
     frame_rate_.set_scope(scope);
 }
 
@@ -61,7 +62,7 @@ Detail ErrorController::next(const FrameWork& work)
     yields_ = exceeded_ && std::isfinite(asked.target_ms) && frame_rate_.output() > floor_ + still_size;
     const Detail before = std::exchange(detail_, frame_rate_.next(asked));
     if (before.opening != detail_.opening || before.life != detail_.life || before.breadth != detail_.breadth)
-        still_frames_ = 0; // these make an error, too
+        same_frames_ = still_frames_ = 0; // these make an error, too
     return detail_;
 }
 
@@ -77,22 +78,29 @@ void ErrorController::note_size(const FrameWork& work)
     if (work.clusters == 0)
         return;
     const double crowding = std::log(double(work.clusters) / double(work.particles));
-    const bool still = std::abs(frame_rate_.output() - size_) < still_size &&
-                       std::abs(crowding - crowding_) < still_crowding(double(work.clusters));
+    const bool same = std::abs(frame_rate_.output() - size_) < still_size;
+    const bool still = same && std::abs(crowding - crowding_) < still_crowding(double(work.clusters));
     size_ = frame_rate_.output();
     crowding_ += (crowding - crowding_) / mean_frames;
+    same_frames_ = same ? same_frames_ + 1 : 0;
     still_frames_ = still ? still_frames_ + 1 : 0;
+}
+
+bool ErrorController::followed() const
+{
+    return still_frames_ > patience || same_frames_ > long_patience;
 }
 
 bool ErrorController::take_samples(const FrameWork& work)
 {
-    if (still_frames_ == 0)
+    if (!followed()) {
         errors_.clear();
-    if (still_frames_ <= patience)
-        still_since_ = work.frame;
+        counts_since_ = work.frame;
+        return false;
+    }
     const std::size_t before = errors_.size();
     for (const ErrorSample& sample : work.errors)
-        if (still_frames_ > patience && sample.frame >= still_since_)
+        if (sample.frame >= counts_since_)
             errors_.add(sample);
     return errors_.size() > before || (errors_.size() == window && !work.errors.empty());
 }

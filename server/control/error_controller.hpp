@@ -12,7 +12,8 @@ namespace slod {
 /// frame rate. The error says how large clusters may be, and nothing is made finer than that: what is more
 /// accurate than asked for costs work in vain. Where the frame rate goes first it may make them larger still.
 ///
-/// Errors come in samples. It waits until enough have been drawn since clusters followed the last turn, and
+/// Errors come in samples. It waits until enough have been drawn since clusters followed the last turn, or
+/// have had time to where their number is never still, and
 /// turns again only when the target is outside the interval that holds the median with 95 % probability and
 /// further than the band within which it rests: so chance moves nothing for long, and there is no limit
 /// cycle.
@@ -26,6 +27,7 @@ public:
 
 private:
     void note_size(const FrameWork& work);
+    bool followed() const;                    ///< the clusters have, what was turned last
     bool take_samples(const FrameWork& work); ///< false: none came that counts
     void turn_goal();
 
@@ -44,9 +46,10 @@ private:
 
     Detail detail_; ///< the last
 
-    double crowding_ = 0;           ///< mean over the last frames of the logarithm of clusters over particles
-    int still_frames_ = 0;          ///< in a row in which neither size nor crowding changed
-    std::uint64_t still_since_ = 0; ///< samples of earlier frames do not count
+    double crowding_ = 0;  ///< mean over the last frames of the logarithm of clusters over particles
+    int same_frames_ = 0;  ///< in a row of the same size and the same levers
+    int still_frames_ = 0; ///< of them, in a row in which the crowding did not change either
+    std::uint64_t counts_since_ = 0; ///< samples of earlier frames do not count
 };
 
 } // namespace slod

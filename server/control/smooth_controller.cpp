@@ -27,7 +27,8 @@ constexpr std::size_t few = 5; ///< frames of the median where the error is larg
 constexpr double large = 0.1;  ///< such an error
 constexpr double lever_step = 1.4142135623730951;
 constexpr int patience = 30; ///< frames that ask for a turn of the further levers before there is one
-/// Below the largest output levers are turned back, which costs 0.35 at most.
+/// Below the largest output levers are turned back, which costs 0.35 at most; and wherever there is time
+/// left.
 constexpr double half_size = 0.7;
 
 } // namespace
@@ -124,7 +125,8 @@ void SmoothController::turn_levers(double error)
 {
     const bool slow = error > reached && output_ == most_output();
     const bool small = output_ < most_output() - half_size;
-    turn_frames_ = slow || small ? turn_frames_ + 1 : 0;
+    const bool idle = error < -reached && output_ == least_output();
+    turn_frames_ = slow || small || idle ? turn_frames_ + 1 : 0;
     exhausted_ = exhausted_ && slow;
     if (turn_frames_ < patience)
         return;

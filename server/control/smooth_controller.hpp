@@ -24,7 +24,8 @@ namespace slod {
 /// born when clusters have followed are taken into account.
 ///
 /// Where clusters are at their largest and that is not enough, other levers follow in steps, in the order
-/// opening, life, breadth; where clusters are less than half that large they go back in reverse.
+/// opening, life, breadth; where clusters are less than half that large, or as small as they may be with time
+/// left, they go back in reverse.
 class SmoothController final : public Controller {
 public:
     SmoothController(const ControlSettings& settings, const ControlScope& scope, const Detail& detail);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -47,13 +48,16 @@ struct Outcome {
     ControlState state = ControlState::Off;
 };
 
-Outcome run(ErrorPlant& plant, const ControlSettings& settings, double frame_ms, int frames = 1500)
+Outcome run(
+    ErrorPlant& plant, const ControlSettings& settings, double frame_ms, int frames = 1500,
+    const std::function<void(int)>& disturb = [](int) {})
 {
     constexpr int last = 300;
     const auto controller = make_controller(settings, {}, {});
     Detail detail;
     Outcome outcome;
     for (int frame = 0; frame < frames; ++frame) {
+        disturb(frame);
         outcome.work_ms = plant.plant.run(detail);
         FrameWork told = plant.plant.told(outcome.work_ms, frame_ms);
         const std::vector<ErrorSample> errors = plant.draw();
@@ -126,6 +130,32 @@ TEST(ErrorControl, SaysWhenTheFinestIsNotAccurateEnough)
     const Outcome outcome = run(plant, holding(1e-4, ControlPriority::Error), target_ms, 3000);
     EXPECT_NEAR(plant.size(), 1, 0.01);
     EXPECT_EQ(outcome.state, ControlState::Unreachable);
+}
+
+// As another controller may have left them: what they make of error would be made good by smaller clusters.
+TEST(ErrorControl, TurnsFurtherLeversBackWhereTheErrorGoesFirst)
+{
+    const Detail left{.breadth = 4, .opening = 4, .life = 2};
+    const ControlScope all{.opening = true, .life = true, .breadth = true};
+    const auto controller = make_controller(holding(0.02, ControlPriority::Error), all, left);
+    ErrorPlant plant;
+    Detail detail = left;
+    for (int frame = 0; frame < 600; ++frame)
+        detail = controller->next(plant.plant.told(plant.plant.run(detail), target_ms));
+    EXPECT_EQ(detail.opening, 1);
+    EXPECT_EQ(detail.life, 1);
+    EXPECT_EQ(detail.breadth, 1);
+}
+
+// As where particles come in bursts: clusters come and go by themselves, and none of their turns ends.
+TEST(ErrorControl, HoldsItThoughTheNumberOfClustersIsNeverStill)
+{
+    ErrorPlant plant;
+    const Outcome outcome =
+        run(plant, holding(0.015, ControlPriority::Error), target_ms, 4000,
+            [&](int frame) { plant.plant.particles *= frame % 20 < 10 ? 1.04 : 1 / 1.04; });
+    EXPECT_NEAR(plant.median() / 0.015, 1, 0.25);
+    EXPECT_EQ(outcome.state, ControlState::Holding);
 }
 
 TEST(ErrorControl, WithoutSamplesKeepsTheSize)
