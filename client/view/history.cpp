@@ -10,8 +10,11 @@ void History::add(const client::ServerStats& stats, const client::MeasuredError*
     append("frame_rate_hz", stats.frame_rate_hz);
     append("work_ms", stats.work_ms);
     append("real_time_factor", stats.real_time_factor);
-    if (error)
+    if (error) {
         append("error_percent", 100 * error->median.value);
+        append("error_low", 100 * error->median.low);
+        append("error_high", 100 * error->median.high);
+    }
     phases_.clear();
     for (const auto& [phase, ms] : stats.phases_ms) {
         append(phase, ms);

@@ -18,8 +18,9 @@ public:
     /// Takes in a sample, once, and the error of accelerations then; null: it is not known.
     void add(const client::ServerStats& stats, const client::MeasuredError* error = nullptr);
 
-    /// Oldest first: "frame_rate_hz", "work_ms", "real_time_factor", "error_percent", the median, once it is
-    /// known, and each phase's milliseconds by its name.
+    /// Oldest first: "frame_rate_hz", "work_ms", "real_time_factor", and each phase's milliseconds by its
+    /// name; once the error is known, "error_percent", the median, and "error_low", "error_high", between
+    /// which it is.
     const std::map<std::string, std::vector<float>>& series() const { return series_; }
 
     /// Names of the phases, in the frame's order.

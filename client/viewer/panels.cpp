@@ -64,6 +64,35 @@ void plot(const view::History& history, const char* label, const std::string& se
     ImGui::PopID();
 }
 
+/// The median error over time, within the band that it is in with 95 % probability.
+void plot_error(const view::History& history)
+{
+    const auto found = history.series().find("error_percent");
+    if (found == history.series().end())
+        return;
+    const std::vector<float>& median = found->second;
+    const std::vector<float>& low = history.series().at("error_low");
+    const std::vector<float>& high = history.series().at("error_high");
+    const ImVec2 size(250, 48), corner = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(size);
+    ImDrawList& canvas = *ImGui::GetWindowDrawList();
+    canvas.AddRectFilled(corner, ImVec2(corner.x + size.x, corner.y + size.y),
+                         ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const float most = 1.2F * std::max(*std::max_element(high.begin(), high.end()), 1e-6F);
+    const auto at = [&](std::size_t i, float percent) {
+        return ImVec2(corner.x + size.x * float(i) / float(std::max<std::size_t>(median.size() - 1, 1)),
+                      corner.y + size.y * (1 - percent / most));
+    };
+    for (std::size_t i = 0; i + 1 < median.size(); ++i) {
+        canvas.AddQuadFilled(at(i, low[i]), at(i + 1, low[i + 1]), at(i + 1, high[i + 1]), at(i, high[i]),
+                             ImGui::GetColorU32(ImGuiCol_PlotLines, 0.35F));
+        canvas.AddLine(at(i, median[i]), at(i + 1, median[i + 1]), ImGui::GetColorU32(ImGuiCol_PlotLines));
+    }
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "error %.2g to %.2g %%", double(low.back()), double(high.back()));
+    canvas.AddText(ImVec2(corner.x + 4, corner.y + 2), ImGui::GetColorU32(ImGuiCol_Text), text.data());
+}
+
 /// Those that the scene calls for, in a part of the panel that scrolls.
 void plot_phases(const view::History& history)
 {
@@ -156,7 +185,7 @@ void draw_performance_panel(const Model& model)
         plot(model.history, "frame rate", "frame_rate_hz", "Hz");
         plot(model.history, "real time factor", "real_time_factor", "");
         plot(model.history, "work", "work_ms", "ms");
-        plot(model.history, "error", "error_percent", "%");
+        plot_error(model.history);
         if (ImGui::CollapsingHeader("milliseconds by phase"))
             plot_phases(model.history);
         ImGui::Text("viewer    %.1f pictures/s", double(ImGui::GetIO().Framerate));
