@@ -18,6 +18,7 @@ void copy_numbers(const Snapshot& from, Snapshot& to, bool waits)
         to.conserved = from.conserved;
     to.profile = from.profile;
     to.regions = from.regions;
+    to.detail = from.detail;
 }
 
 } // namespace

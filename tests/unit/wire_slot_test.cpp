@@ -49,6 +49,17 @@ TEST(WireSlot, WaitingClustersOutliveFramesWithoutAny)
     EXPECT_EQ(frame.newest.clusters.size(), 3U);
 }
 
+TEST(WireSlot, TheDetailOfAFrameComesWithItsNumbers)
+{
+    FrameSlot slot;
+    Snapshot snapshot = made_up_snapshot(1, 0);
+    snapshot.detail = {.cluster_size = 0.5, .opening = 2};
+    slot.put(snapshot, no_stats, nothing);
+    OfferedFrame frame;
+    ASSERT_TRUE(take(slot, frame));
+    EXPECT_EQ(frame.newest.detail, snapshot.detail);
+}
+
 TEST(WireSlot, WhatWasDueOfAReplacedFrameIsDueOfTheNewer)
 {
     FrameSlot slot;
