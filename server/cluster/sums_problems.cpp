@@ -1,5 +1,6 @@
 #include "cluster/sums_problems.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "cluster/bounds.hpp"
@@ -32,7 +33,8 @@ Sums sum_up(const ClusterTable& clusters, std::size_t slot, const ParticleSet& m
 }
 
 /// Each of n terms, and each step of what led to them, is rounded by at most half a unit in the last place of
-/// the largest number in it: places and velocities of members in space, not only about their centre.
+/// the largest number in it: places and velocities of members in space, not only about their centre. Where
+/// that is beyond all numbers, as of squares of what is beyond their roots, nothing can be said.
 void check(const ClusterStore& store, std::size_t slot, std::uint64_t frame, const ParticleSet& members,
            Problems& found)
 {
@@ -41,13 +43,13 @@ void check(const ClusterStore& store, std::size_t slot, std::uint64_t frame, con
     const double mass = clusters.mass(slot), weight = mass > 0 ? mass : double(members.size());
     const double reach = bounding_radius(clusters, store.rule, slot, frame);
     const double rush = velocity_bound(clusters, store.rule, slot, frame);
-    const double far_off = clusters.position[slot].norm() + reach;
-    const double fast = clusters.mean_velocity(slot).norm() + rush;
+    const double far_off = clusters.position[slot].stableNorm() + reach;
+    const double fast = clusters.mean_velocity(slot).stableNorm() + rush;
     const Sums sums = sum_up(clusters, slot, members);
     const MappedMoments moments =
         map_moments(clusters.moments[slot], clusters.blocks(slot, store.rule, frame));
     const auto expect = [&](std::string_view what, double difference, double most) {
-        if (!(difference <= roundings * most))
+        if (std::isfinite(most) && !(difference <= roundings * most))
             found.push_back("cluster " + std::to_string(slot) + ": its " + std::string(what) +
                             " is off that of its members by " + number_text(difference / most) +
                             " of the largest there is");
