@@ -233,12 +233,29 @@ Particle MemberReader::operator()(std::uint32_t row) const
             .kind = kinds != nullptr ? kinds[row] : std::uint8_t(0)};
 }
 
+Particle member_at(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame, std::uint32_t place)
+{
+    const std::size_t slot = cluster.index;
+    const std::uint32_t* expiries = store.members.expiries(store.clusters.slab[slot]);
+    std::uint32_t row = 0;
+    for (std::uint32_t before = 0;; ++row) {
+        SLOD_ASSERT(row < store.clusters.stored[slot]);
+        if ((expiries == nullptr || expiries[row] > frame) && before++ == place)
+            return MemberReader(store, cluster, frame)(row);
+    }
+}
+
 ClusterPicture picture_of(const ClusterStore& store, ClusterSlot cluster, std::uint64_t frame)
 {
     const ClusterTable& clusters = store.clusters;
     const std::size_t slot = cluster.index;
-    return {clusters.slab[slot], clusters.stored[slot], clusters.position[slot],
-            clusters.blocks(slot, store.rule, frame), map_centre(clusters, slot)};
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    return {clusters.slab[slot],
+            clusters.stored[slot],
+            clusters.position[slot],
+            map_centre(clusters, slot),
+            map.a,
+            map.b};
 }
 
 ClusterPast past_of(const ClusterTable& clusters, std::size_t slot)

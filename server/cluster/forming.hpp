@@ -52,14 +52,30 @@ private:
     Vector3d position_, velocity_;
 };
 
+/// The one that map_out() writes at `place`, in [0, count).
+Particle member_at(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame, std::uint32_t place);
+
+/// A member's place and velocity when its cluster was formed, relative to the members' mean.
+inline MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offset& mean)
+{
+    return {offset.position.cast<double>() - mean.position, offset.velocity.cast<double>() - mean.velocity};
+}
+
 /// All that a cluster's members' places follow from besides their rows, which stay as long as their slab is
 /// not recycled, whatever becomes of the cluster.
 struct ClusterPicture {
     Slab slab;
     std::uint32_t stored = 0;
     Vector3d position{0, 0, 0};
-    MapBlocks map;
-    MapBlocks::Offset mean; ///< what the map is applied about
+    MapBlocks::Offset mean;          ///< what the map is applied about
+    Matrix3d of_offset, of_velocity; ///< the map's blocks that give a place
+
+    /// Exactly where map_out() has the member.
+    Vector3d place_of(const FormedOffset& formed) const
+    {
+        const MapBlocks::Offset offset = relative_to(formed, mean);
+        return position + (of_offset * offset.position + of_velocity * offset.velocity);
+    }
 };
 
 ClusterPicture picture_of(const ClusterStore& store, ClusterSlot slot, std::uint64_t frame);
@@ -70,12 +86,6 @@ struct MemberPlace {
     double mass;
     std::uint8_t kind;
 };
-
-/// A member's place and velocity when its cluster was formed, relative to the members' mean.
-inline MapBlocks::Offset relative_to(const FormedOffset& offset, const MapBlocks::Offset& mean)
-{
-    return {offset.position.cast<double>() - mean.position, offset.velocity.cast<double>() - mean.velocity};
-}
 
 /// Calls visit(MemberPlace) for each member that was alive at the end of `frame`, of which the picture is.
 template <class Visit>
@@ -89,8 +99,7 @@ void visit_members(const ClusterStore& store, const ClusterPicture& picture, std
     for (std::uint32_t row = 0; row < picture.stored; ++row) {
         if (expiries != nullptr && expiries[row] <= frame)
             continue;
-        const MapBlocks::Offset now = picture.map.forward(relative_to(offsets[row], picture.mean));
-        visit(MemberPlace{picture.position + now.position,
+        visit(MemberPlace{picture.place_of(offsets[row]),
                           double(masses != nullptr ? masses[row] : store.uniform_mass),
                           kinds != nullptr ? kinds[row] : std::uint8_t(0)});
     }

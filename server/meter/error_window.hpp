@@ -29,7 +29,7 @@ struct ErrorSample {
 /// The last so many errors.
 class ErrorWindow {
 public:
-    explicit ErrorWindow(std::size_t capacity) : capacity_(capacity) {}
+    explicit ErrorWindow(std::size_t capacity) : capacity_(capacity) { samples_.reserve(capacity); }
 
     void add(const ErrorSample& sample);
     void clear();

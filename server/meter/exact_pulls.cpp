@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "core/assert.hpp"
 #include "core/parallel.hpp"
@@ -50,12 +49,21 @@ struct Targets {
 
 } // namespace
 
-void ExactPulls::begin(const ClusterStore& store, std::uint64_t frame, std::vector<Probe> probes,
+void ExactPulls::reserve(std::size_t clusters)
+{
+    probes_.reserve(most_probes);
+    pictures_.reserve(clusters);
+    slots_.reserve(clusters);
+    blocks_.reserve(clusters);
+    sums_.reserve(most_blocks * most_probes);
+}
+
+void ExactPulls::begin(const ClusterStore& store, std::uint64_t frame, std::span<const Probe> probes,
                        std::span<const Attracts> attracts)
 {
     SLOD_ASSERT(probes.size() <= most_probes);
     frame_ = frame;
-    probes_ = std::move(probes);
+    probes_.assign(probes.begin(), probes.end());
     abandon();
     for (Probe& probe : probes_)
         probe.pull.setZero();
@@ -104,13 +112,20 @@ std::uint64_t ExactPulls::advance(const ClusterStore& store, std::uint64_t pairs
     std::uint64_t spent = 0;
     for (; !done() && spent < pairs; ++next_block_)
         spent += blocks_[next_block_].particles * probes_.size();
-    sums_.assign((next_block_ - first) * probes_.size(), Vector3d::Zero());
-    for_each_task(next_block_ - first, [&](std::size_t i) {
+    for (std::size_t begin = first; begin < next_block_; begin += most_blocks)
+        sum_up(store, begin, std::min(begin + most_blocks, next_block_));
+    return spent;
+}
+
+/// The blocks [first, last), no more than `most_blocks`.
+void ExactPulls::sum_up(const ClusterStore& store, std::size_t first, std::size_t last)
+{
+    sums_.assign((last - first) * probes_.size(), Vector3d::Zero());
+    for_each_task(last - first, [&](std::size_t i) {
         sum_up(store, blocks_[first + i], std::span(sums_).subspan(i * probes_.size(), probes_.size()));
     });
     for (std::size_t sum = 0; sum < sums_.size(); ++sum)
         probes_[sum % probes_.size()].pull += sums_[sum];
-    return spent;
 }
 
 void ExactPulls::sum_up(const ClusterStore& store, const Block& block, std::span<Vector3d> sums) const

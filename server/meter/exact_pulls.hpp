@@ -30,9 +30,11 @@ public:
     /// Pairs of one block of work, at least, where there are so many.
     static constexpr std::uint64_t block_pairs = 65'536;
 
+    void reserve(std::size_t clusters); ///< Provides memory for passes over so many.
+
     /// Begins a pass over the clusters as they are after `frame` frames. `attracts`: whom the particles of
     /// each region attract, by row. Members' rows must stay until it is done or abandoned.
-    void begin(const ClusterStore& store, std::uint64_t frame, std::vector<Probe> probes,
+    void begin(const ClusterStore& store, std::uint64_t frame, std::span<const Probe> probes,
                std::span<const Attracts> attracts);
     void abandon(); ///< what is under way
 
@@ -52,7 +54,10 @@ private:
         bool own_region;  ///< they do
     };
 
+    static constexpr std::size_t most_blocks = 256; ///< summed up at a time
+
     void cut(const ClusterStore& store, std::span<const Attracts> attracts);
+    void sum_up(const ClusterStore& store, std::size_t first, std::size_t last);
     void sum_up(const ClusterStore& store, const Block& block, std::span<Vector3d> sums) const;
 
     std::uint64_t frame_ = 0;
@@ -61,7 +66,7 @@ private:
     std::vector<std::uint32_t> slots_; ///< of the pictures
     std::vector<Block> blocks_;
     std::size_t next_block_ = 0;
-    std::vector<Vector3d> sums_; ///< by block of one call, then probe
+    std::vector<Vector3d> sums_; ///< by block of those at a time, then probe
 };
 
 } // namespace slod

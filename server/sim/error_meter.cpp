@@ -14,6 +14,21 @@ constexpr std::uint32_t stream = 0x6d657472; ///< of the draws' random numbers
 
 } // namespace
 
+void ErrorMeter::reserve(std::size_t clusters, std::size_t regions)
+{
+    drawn_.reserve(most_draws);
+    order_.reserve(clusters);
+    before_.reserve(clusters + 1);
+    region_first_.reserve(regions + 1);
+    next_.reserve(regions);
+    inhabited_.reserve(regions);
+    probes_.reserve(most_draws);
+    attracts_.reserve(regions);
+    fresh_.reserve(window + most_draws);
+    taken_.reserve(window + most_draws);
+    pulls_.reserve(clusters);
+}
+
 /// Lists the clusters by region, with the particles before each.
 void ErrorMeter::sort_by_region(const SlodTree& tree, const ClusterTable& clusters)
 {
@@ -22,10 +37,10 @@ void ErrorMeter::sort_by_region(const SlodTree& tree, const ClusterTable& cluste
         region_first_[clusters.region[slot] + 1U] += clusters.alive(slot) ? 1 : 0;
     std::partial_sum(region_first_.begin(), region_first_.end(), region_first_.begin());
     order_.resize(region_first_.back());
-    std::vector<std::size_t> next(region_first_.begin(), region_first_.end() - 1);
+    next_.assign(region_first_.begin(), region_first_.end() - 1);
     for (std::uint32_t slot = 0; slot < clusters.slot_count(); ++slot)
         if (clusters.alive(slot))
-            order_[next[clusters.region[slot]]++] = slot;
+            order_[next_[clusters.region[slot]]++] = slot;
     before_.assign(order_.size() + 1, 0);
     for (std::size_t i = 0; i < order_.size(); ++i)
         before_[i + 1] = before_[i] + clusters.count[order_[i]];
@@ -38,16 +53,16 @@ std::vector<ErrorMeter::Drawn>& ErrorMeter::draw(const SlodTree& tree, const Clu
     sort_by_region(tree, store.clusters);
     if (order_.empty())
         return drawn_;
-    std::vector<std::size_t> rows; // that hold particles
+    inhabited_.clear();
     for (std::size_t row = 0; row + 1 < region_first_.size(); ++row)
         if (region_first_[row] < region_first_[row + 1])
-            rows.push_back(row);
-    const std::uint32_t of_regions = rows.size() > 1 ? at_once_ / 2 : 0;
+            inhabited_.push_back(RegionRow(row));
+    const std::uint32_t of_regions = inhabited_.size() > 1 ? at_once_ / 2 : 0;
     for (std::uint32_t i = of_regions; i < at_once_; ++i)
         draw_of(tree, store, frame, 0, before_.back(), true);
-    const std::size_t at_once = std::min(rows.size(), regions_at_once);
+    const std::size_t at_once = std::min(inhabited_.size(), regions_at_once);
     for (std::uint32_t i = 0; i < of_regions; ++i) {
-        const std::size_t row = rows[(next_region_ + i % at_once) % rows.size()];
+        const RegionRow row = inhabited_[(next_region_ + i % at_once) % inhabited_.size()];
         draw_of(tree, store, frame, before_[region_first_[row]], before_[region_first_[row + 1]], false);
     }
     next_region_ += at_once;
@@ -64,12 +79,10 @@ void ErrorMeter::draw_of(const SlodTree& tree, const ClusterStore& store, std::u
     const auto place = std::size_t(above - before_.begin()) - 1;
     const ClusterSlot slot{order_[place]};
     const RegionRow row = store.clusters.region[slot.index];
-    members_.resize(store.clusters.count[slot.index]);
-    map_out(store, slot, frame, members_);
     drawn_.push_back({.slot = slot,
                       .row = row,
                       .region = tree.regions[row].number,
-                      .member = members_[drawn - before_[place]],
+                      .member = member_at(store, slot, frame, std::uint32_t(drawn - before_[place])),
                       .of_all = of_all});
 }
 
@@ -77,15 +90,15 @@ void ErrorMeter::begin(const SlodTree& tree, const ClusterStore& store, std::uin
                        double gravitational_constant)
 {
     constant_ = gravitational_constant;
-    std::vector<Probe> probes;
+    probes_.clear();
     for (const Drawn& drawn : drawn_)
-        probes.push_back({.place = drawn.member.position,
-                          .q = 0.5 * store.kind_softening_squared[drawn.member.kind],
-                          .region = drawn.row});
-    std::vector<Attracts> attracts;
+        probes_.push_back({.place = drawn.member.position,
+                           .q = 0.5 * store.kind_softening_squared[drawn.member.kind],
+                           .region = drawn.row});
+    attracts_.clear();
     for (const Subtree& subtree : tree.subtrees)
-        attracts.push_back(constant_ > 0 ? subtree.settings.attracts : Attracts::Nothing);
-    pulls_.begin(store, frame, std::move(probes), attracts);
+        attracts_.push_back(constant_ > 0 ? subtree.settings.attracts : Attracts::Nothing);
+    pulls_.begin(store, frame, probes_, attracts_);
     if (pulls_.done())
         finish(tree);
 }
@@ -118,6 +131,13 @@ void ErrorMeter::forget()
     all_.clear();
     of_region_.clear();
     fresh_.clear();
+}
+
+std::span<const ErrorSample> ErrorMeter::take_samples()
+{
+    taken_.swap(fresh_);
+    fresh_.clear();
+    return taken_;
 }
 
 void ErrorMeter::finish(const SlodTree& tree)

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <map>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "meter/error_window.hpp"
@@ -45,6 +45,8 @@ public:
 
     bool idle() const { return pulls_.done(); }
 
+    void reserve(std::size_t clusters, std::size_t regions); ///< Provides memory for drawing among so many.
+
     /// Draws members. The caller fills in what they are given, and the rest.
     std::vector<Drawn>& draw(const SlodTree& tree, const ClusterStore& store, std::uint64_t frame);
 
@@ -71,9 +73,9 @@ public:
     std::vector<RegionError>
     region_errors(const SlodTree& tree) const; ///< of those that there are samples of
 
-    /// The errors of those drawn among all that have come since the last call of this; the oldest are left
-    /// out where they are more than a window.
-    std::vector<ErrorSample> take_samples() { return std::exchange(fresh_, {}); }
+    /// The errors of those drawn among all that have come since the last call of this, valid until the next;
+    /// the oldest are left out where they are more than a window.
+    std::span<const ErrorSample> take_samples();
 
 private:
     struct OfRegion {
@@ -95,11 +97,14 @@ private:
     std::vector<std::uint32_t> order_;      ///< slots by region
     std::vector<std::uint64_t> before_;     ///< particles before each in that order, and of all
     std::vector<std::size_t> region_first_; ///< in that order, by row, and the end
-    std::vector<Particle> members_;
+    std::vector<std::size_t> next_;         ///< place in it, by row
+    std::vector<RegionRow> inhabited_;      ///< rows that hold particles
+    std::vector<Probe> probes_;
+    std::vector<Attracts> attracts_; ///< by row
     ExactPulls pulls_;
     ErrorWindow all_{window};
     std::map<RegionRow, OfRegion> of_region_;
-    std::vector<ErrorSample> fresh_;
+    std::vector<ErrorSample> fresh_, taken_;
 };
 
 } // namespace slod

@@ -67,7 +67,7 @@ void Simulation::forget_errors()
     state_->meter.forget();
 }
 
-std::vector<ErrorSample> Simulation::take_error_samples()
+std::span<const ErrorSample> Simulation::take_error_samples()
 {
     return state_->meter.take_samples();
 }

@@ -23,7 +23,7 @@ const Snapshot& Simulation::step(const Request& request)
     s.snapshot.profile = {};
     s.snapshot.counts = {};
     //                                                      reads                   writes
-    s.run(Phase::Commands, [&] { s.open_frame(); });     // slabs, regions       -> pool, tree, tides, frame
+    s.run(Phase::Commands, [&] { s.open(request); });    // slabs, regions       -> pool, tree, tides, frame
     s.run(Phase::OpenKick, [&] { s.kick(); });           // accelerations, tides -> velocities, maps
     s.run(Phase::Propagate, [&] { s.propagate(); });     // velocities, maps     -> positions, maps
     s.run(Phase::Expire, [&] { s.expire(); });           // ages, sinks          -> clusters, members

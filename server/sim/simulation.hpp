@@ -68,10 +68,10 @@ public:
     const Snapshot& step(const Request& request);
 
     // What clusters and walks miss of the members' accelerations, measured as frames ask for it.
-    ErrorEstimate error() const;                    ///< of a member that is as likely to be any
-    std::vector<RegionError> region_errors() const; ///< of the members of each region
-    std::vector<ErrorSample> take_error_samples();  ///< of any members, since the last call of this
-    void forget_errors();                           ///< as if nothing had been measured yet
+    ErrorEstimate error() const;                       ///< of a member that is as likely to be any
+    std::vector<RegionError> region_errors() const;    ///< of the members of each region
+    std::span<const ErrorSample> take_error_samples(); ///< of any members; valid until the next call of this
+    void forget_errors();                              ///< as if nothing had been measured yet
 
     /// The present state, filled as requested, without a step.
     const Snapshot& snapshot(const Request& request);

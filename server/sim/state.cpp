@@ -136,13 +136,15 @@ Simulation::State::State(const SimulationSettings& scene, const ParticleSet& ini
     observe({});
 }
 
-void Simulation::State::open_frame()
+void Simulation::State::open(const Request& request)
 {
     meter.give_up_late(frame);
     store.members.recycle(meter.recyclable_before(frame + 1));
     if (tree.unsettled)
         settle(tree);
     make_room();
+    if (request.error_pairs > 0 && plan.has(Phase::Meter))
+        meter.reserve(store.clusters.slot_capacity(), tree.subtrees.size());
     if (std::exchange(forces_stale, false))
         look_around();
     ++frame;

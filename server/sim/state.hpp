@@ -29,7 +29,7 @@ struct Simulation::State {
 
     /// Commands: recycles member slabs, lets changes of regions and of gravity count, makes room, and counts
     /// the frame that begins.
-    void open_frame();
+    void open(const Request& request);
     void make_room();   ///< Provides memory for the frame, so that no other phase but emit has to take any
     void look_around(); ///< Moments and forces of the clusters as they are, outside their phases
     void kick();

@@ -38,8 +38,9 @@ TEST_P(AllocationFree, InEveryPhaseOnceSteady)
 {
     if (validating)
         GTEST_SKIP() << "what checks the structures after each frame takes memory of its own";
-    for (const Simulation::Request request : {Simulation::Request{}, {.clusters = true, .conserved = true}}) {
-        SCOPED_TRACE(request.clusters ? "clusters and conserved quantities asked for" : "nothing asked for");
+    for (const Simulation::Request request :
+         {Simulation::Request{}, {.clusters = true, .conserved = true, .error_pairs = 10'000}}) {
+        SCOPED_TRACE(request.clusters ? "everything asked for" : "nothing asked for");
         ThreadTeam(int(thread_count)).run([&] {
             ASSERT_GE(gather_team(thread_count), thread_count); // one that joins late takes memory of its own
             Simulation simulation(GetParam().settings, GetParam().initial, {});
@@ -49,6 +50,8 @@ TEST_P(AllocationFree, InEveryPhaseOnceSteady)
             for (int frame = 0; frame < steady_frames; ++frame)
                 simulation.step(request);
             EXPECT_EQ(allocations(), before);
+            EXPECT_EQ(simulation.error().samples > 0,
+                      request.error_pairs > 0 && simulation.plan().has(Phase::Meter));
         });
     }
 }
