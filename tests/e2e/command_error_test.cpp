@@ -63,6 +63,29 @@ TEST_F(Errors, ATargetIsTakenAndTold)
     EXPECT_EQ(control({"set", "meter.enabled=false", "control.mode=error"}), int(ExitCode::InvalidArgument));
 }
 
+// A thousand frames a second leave no time for an error that unclustered stars are needed for: one of the two
+// targets has to give way, whatever the machine.
+TEST_F(Errors, OfTwoTargetsThatCannotBothBeHadThePriorityIsHeld)
+{
+    Child running(server({"--set", "control.mode=error", "--set", "control.target_error=1e-4", "--set",
+                          "server.frame_rate=1000", "--set", "galaxy.particles=10000"}));
+    client::Connection connection = connect({.stats = true, .errors = true});
+    const auto says = [&](std::string_view state) {
+        return sees(connection, [&] {
+            return connection.stats() && connection.stats()->control.state == state && connection.error();
+        });
+    };
+    ASSERT_TRUE(says("yielding")) << running.errors();
+    EXPECT_GT(connection.error()->median.low, 1e-4);
+
+    const double yielding_at = connection.stats()->control.cluster_size;
+    ASSERT_EQ(control({"set", "control.priority=error"}), 0) << answer;
+    ASSERT_TRUE(sees(connection, [&] {
+        return connection.stats()->control.cluster_size < 0.75 * yielding_at &&
+               connection.stats()->control.state == "adjusting";
+    }));
+}
+
 TEST_F(Errors, WhatIsNoTargetIsWrongUsage)
 {
     for (const Words& words : {Words{"target"},

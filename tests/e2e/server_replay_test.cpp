@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 #include "e2e/server_fixture.hpp"
 
@@ -131,6 +133,27 @@ TEST_F(Replay, AgreesThoughAControllerHeldTheFrameRate)
         const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds", "--threads", "3"});
         EXPECT_EQ(replay.exit_code, 0) << mode << ": " << replay.output;
     }
+}
+
+// The error goes first, so that only what was measured can have made clusters smaller.
+TEST_F(Replay, AgreesThoughAMeasuredErrorTurnedTheSizes)
+{
+    const std::string galaxy = SLOD_SCENES "/galaxy.toml";
+    const ServerRun held = run_server(
+        {galaxy, "--no-dds", "--frames", "400", "--set", "galaxy.particles=2000", "--set", "meter.share=0.5",
+         "--set", "server.frame_rate=200", "--set", "control.mode=error", "--set", "control.priority=error",
+         "--set", "control.target_error=0.01", "--output-dir", folder_});
+    ASSERT_EQ(held.exit_code, 0) << held.output;
+    double finest = 1;
+    std::istringstream log(file_content(log_));
+    for (std::string line; std::getline(log, line);) {
+        const std::string key = "\"cluster_size=";
+        if (const std::size_t found = line.find(key); found != std::string::npos)
+            finest = std::min(finest, std::stod(line.substr(found + key.size())));
+    }
+    EXPECT_LT(finest, 0.5);
+    const ServerRun replay = run_server({"--replay", log_, "--free-run", "--no-dds", "--threads", "3"});
+    EXPECT_EQ(replay.exit_code, 0) << replay.output;
 }
 
 } // namespace
