@@ -37,6 +37,8 @@ Connection::Connection(std::uint32_t domain, wire::Profile profile, const Subscr
         arrivals_.watch(overview_reader_.emplace(participant_));
     if (subscription.errors)
         arrivals_.watch(errors_reader_.emplace(participant_));
+    if (subscription.effects)
+        arrivals_.watch(effects_reader_.emplace(participant_));
     if (subscription.regions)
         arrivals_.watch(regions_reader_.emplace(participant_));
     if (subscription.clusters && subscription.region.empty())
@@ -55,6 +57,7 @@ void Connection::poll()
     take_states();
     take_stats();
     take_errors();
+    take_effects();
     take_regions();
     take_frames();
 }
@@ -101,6 +104,7 @@ void Connection::follow_session()
     stats_.reset();
     overview_.reset();
     errors_.clear();
+    effects_.clear();
     assembler_.reset();
     clusters_meter_.reset();
 }
@@ -132,6 +136,16 @@ void Connection::take_errors()
                 if (info.instance_state != DDS_IST_ALIVE && session_ == wire::uuid_of(error.session))
                     errors_.erase(error.region);
             });
+}
+
+void Connection::take_effects()
+{
+    if (effects_reader_)
+        effects_reader_->take_each(samples_per_poll,
+                                   [&](const wire::EffectStats& effect, const dds_sample_info_t& info) {
+                                       if (is_ours(effect, info))
+                                           assign(effects_[effect.effect], effect);
+                                   });
 }
 
 const MeasuredError* Connection::error() const

@@ -22,6 +22,7 @@ struct Subscription {
     bool clusters = false;
     bool overview = false;
     bool errors = false;
+    bool effects = false;
     bool regions = false;
     std::string region{};                         ///< of the clusters; empty: all
     wire::Repair repair = wire::Repair::AskAgain; ///< of the clusters
@@ -52,6 +53,8 @@ public:
     using Errors = std::map<std::string, MeasuredError>; ///< by region; "": of all particles
     const Errors& errors() const { return errors_; }     ///< empty: they are not measured, or not yet
     const MeasuredError* error() const;                  ///< of all particles; null likewise
+    using Effects = std::map<std::string, EffectInfo>;   ///< by name
+    const Effects& effects() const { return effects_; }  ///< empty: not told yet
     using Regions = std::map<std::string, RegionInfo>;   ///< by name
     const Regions& regions() const;
 
@@ -70,6 +73,7 @@ private:
     void take_states();
     void take_stats();
     void take_errors();
+    void take_effects();
     void take_regions();
     void take_frames();
     void follow_session();
@@ -84,6 +88,7 @@ private:
     std::optional<wire::Reader<wire::Stats>> stats_reader_;
     std::optional<wire::Reader<wire::Overview>> overview_reader_;
     std::optional<wire::Reader<wire::ErrorEstimate>> errors_reader_;
+    std::optional<wire::Reader<wire::EffectStats>> effects_reader_;
     std::optional<wire::Reader<wire::RoiState>> regions_reader_;
     std::optional<wire::Reader<wire::Clusters>> clusters_reader_;
     std::optional<wire::Reader<wire::Clusters>> shared_clusters_reader_; ///< of regions without a partition
@@ -94,6 +99,7 @@ private:
     std::optional<ServerStats> stats_;
     std::optional<OverviewNodes> overview_;
     Errors errors_;
+    Effects effects_;
     std::map<wire::Uuid, Regions> regions_; ///< by session
     FrameAssembler assembler_;
     StreamMeter clusters_meter_;

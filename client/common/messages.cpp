@@ -74,6 +74,16 @@ void assign(MeasuredError& to, const wire::ErrorEstimate& from)
           .target = from.target};
 }
 
+void assign(EffectInfo& to, const wire::EffectStats& from)
+{
+    to = {.frame = from.frame,
+          .state = from.state,
+          .acts_on_clusters = from.acts_on_clusters,
+          .clusters = from.clusters,
+          .particles = from.particles,
+          .ms = from.ms};
+}
+
 void assign(ServerStats& to, const wire::Stats& from)
 {
     to.frame = from.frame;

@@ -82,6 +82,15 @@ struct MeasuredError {
     double target = 0; ///< median that is held; 0: none
 };
 
+/// An effect the server's program knows, and what it did in a frame.
+struct EffectInfo {
+    std::uint64_t frame = 0;
+    std::string state; ///< "active", "off", "powerless" or "absent"
+    std::string acts_on_clusters;
+    std::uint64_t clusters = 0, particles = 0;
+    double ms = 0;
+};
+
 /// A region of interest as it is.
 struct RegionInfo {
     std::string region;
@@ -136,6 +145,7 @@ struct OverviewNodes {
 void assign(ServerInfo& to, const wire::ServerState& from);
 void assign(ServerStats& to, const wire::Stats& from);
 void assign(MeasuredError& to, const wire::ErrorEstimate& from);
+void assign(EffectInfo& to, const wire::EffectStats& from);
 void assign(RegionInfo& to, const wire::RoiState& from);
 void assign(RegionClusters& to, const wire::Clusters& from);
 void assign(OverviewNodes& to, const wire::Overview& from);

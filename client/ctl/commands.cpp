@@ -75,6 +75,8 @@ constexpr std::array all_commands{
     CommandEntry{"echo", "Print the samples of a topic as they arrive.", declare_echo, run_echo},
     CommandEntry{"roi", "List, show, add, move, resize, set and remove regions of interest.", declare_roi,
                  run_roi},
+    CommandEntry{"effect", "List the effects and what they cost, change them, switch them on and off.",
+                 declare_effect, run_effect},
     CommandEntry{"pause", "Stop the passage of scene time.", declare_simple, run_steering},
     CommandEntry{"resume", "Let a paused scene go on.", declare_simple, run_steering},
     CommandEntry{"step", "Run some frames while paused.", declare_step, run_steering},

@@ -33,6 +33,7 @@ ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
 
 /// Prints the errors of accelerations, of all particles and by region.
 ExitCode run_errors(const CommandLine& line, const std::stop_token& stop);
+ExitCode run_effect(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_echo(const CommandLine& line, const std::stop_token& stop);
 
 /// hz, bw and latency of a topic, once a second.

@@ -183,8 +183,8 @@ void declare_set(CLI::App& app, CommandLine& line)
 {
     add_settings(
         app, "SETTING", line.request,
-        "table.key=value as in a scene file, of what may change while it runs: gravity, uniform_gravity, "
-        "uniform_wind, background, control, meter, server.frame_rate")
+        "table.key=value as in a scene file, of what may change while it runs: effects, background, control, "
+        "meter, server.frame_rate")
         ->required();
     declare_simple(app, line);
 }
@@ -201,6 +201,23 @@ void declare_target(CLI::App& app, CommandLine& line)
         ->required()
         ->expected(1, 4);
     app.parse_complete_callback([&line] { line.request.kind = "set"; });
+}
+
+void declare_effect(CLI::App& app, CommandLine& line)
+{
+    action(app, line, "list", "Print all effects, one line each: their state and their work in a frame.", "");
+    CLI::App* const set =
+        action(app, line, "set", "Change settings of effects; one that the scene has not comes.", "set");
+    add_settings(*set, "SETTING", line.request, "effect.key=value as in a scene file")->required();
+    const auto switching = [&](const std::string& name, const std::string& help, const std::string& value) {
+        CLI::App* const sub = action(app, line, name, help, "set");
+        const auto take = [&line, value](const std::string& effect) {
+            line.request.settings.emplace_back("effects." + effect, value);
+        };
+        sub->add_option_function<std::string>("NAME", take, "Name of the effect")->required();
+    };
+    switching("enable", "Let an effect of the scene run again.", "true");
+    switching("disable", "Switch an effect off: its settings stay.", "false");
 }
 
 void declare_roi(CLI::App& app, CommandLine& line)

@@ -13,6 +13,7 @@ void declare_simple(CLI::App& app, CommandLine& line); ///< pause, resume, stop
 void declare_step(CLI::App& app, CommandLine& line);
 void declare_set(CLI::App& app, CommandLine& line);
 void declare_target(CLI::App& app, CommandLine& line); ///< a frame rate, an error, or both, as settings
+void declare_effect(CLI::App& app, CommandLine& line);
 void declare_roi(CLI::App& app, CommandLine& line);
 
 } // namespace slod::ctl

@@ -116,16 +116,11 @@ Json json_of(const wire::Stats& message)
 
 Json json_of(const wire::EffectStats& message)
 {
-    return {{"session", uuid(message.session)},
-            {"effect", message.effect},
-            {"serial", message.serial},
-            {"frame", message.frame},
-            {"active", message.active},
-            {"acts_on_clusters", message.acts_on_clusters},
-            {"clusters", message.clusters},
-            {"particles", message.particles},
-            {"straddling_clusters", message.straddling_clusters},
-            {"ms", message.ms}};
+    client::EffectInfo effect;
+    assign(effect, message);
+    Json json = {{"session", uuid(message.session)}, {"effect", message.effect}, {"serial", message.serial}};
+    json.update(json_of(effect));
+    return json;
 }
 
 Json json_of(const wire::ErrorEstimate& message)

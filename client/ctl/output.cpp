@@ -164,6 +164,16 @@ Json json_of(const client::MeasuredError& error)
             {"target", error.target}};
 }
 
+Json json_of(const client::EffectInfo& effect)
+{
+    return {{"frame", effect.frame},
+            {"state", effect.state},
+            {"acts_on_clusters", effect.acts_on_clusters},
+            {"clusters", effect.clusters},
+            {"particles", effect.particles},
+            {"ms", effect.ms}};
+}
+
 Json json_of(const client::StreamMeter::Report& traffic)
 {
     return {{"received", traffic.received},

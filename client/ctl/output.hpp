@@ -17,6 +17,7 @@ Json json_of(const client::Status& status);
 Json json_of(const client::ServerInfo& server);
 Json json_of(const client::ServerStats& stats);
 Json json_of(const client::MeasuredError& error);
+Json json_of(const client::EffectInfo& effect);
 Json json_of(const client::RegionInfo& region);
 Json json_of(const client::StreamMeter::Report& traffic);
 

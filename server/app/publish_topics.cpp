@@ -20,8 +20,9 @@ constexpr double region_counts_hz = 1;
 constexpr std::array written_topics{
     wire::topic<wire::Clusters>().name,      wire::topic<wire::Overview>().name,
     wire::topic<wire::FrameManifest>().name, wire::topic<wire::Stats>().name,
-    wire::topic<wire::ErrorEstimate>().name, wire::topic<wire::RoiState>().name,
-    wire::topic<wire::ServerState>().name,   wire::topic<wire::CommandReply>().name};
+    wire::topic<wire::ErrorEstimate>().name, wire::topic<wire::EffectStats>().name,
+    wire::topic<wire::RoiState>().name,      wire::topic<wire::ServerState>().name,
+    wire::topic<wire::CommandReply>().name};
 constexpr std::array read_topics{wire::topic<wire::Command>().name, wire::topic<wire::View>().name};
 
 std::vector<std::string_view> topics_of(const WireSettings& settings)
@@ -59,7 +60,8 @@ PublishedTopics::PublishedTopics(const WireSettings& settings, const Publisher::
       reply_writer_(participant_), manifest_encoder_(session_), manifest_writer_(participant_),
       overview_encoder_(session_), overview_writer_(participant_), stats_rate_(settings.stats_rate),
       stats_encoder_(session_), stats_writer_(participant_), errors_(participant_, session_, outlet_),
-      state_encoder_(session_, facts, topics_of(settings)), state_writer_(participant_)
+      effects_(participant_, session_, outlet_), state_encoder_(session_, facts, topics_of(settings)),
+      state_writer_(participant_)
 {
     spdlog::info("publishing domain={} session={} {}", settings.domain, wire::to_string(session_),
                  wire::configuration_source(profile_of(settings.profile)));
@@ -88,6 +90,7 @@ void PublishedTopics::publish(const OfferedFrame& frame)
                      stats_encoder_.encode(frame.newest, frame.loop, outlet_.counters().message()));
     }
     errors_.update(frame.loop.errors, {.frame = frame.newest.frame, .time = frame.newest.time});
+    effects_.update(frame.loop.effects);
     if (region_counts_rate_.due(begin)) {
         region_counts_rate_.mark(begin);
         regions_.write_counts(frame.newest.regions);

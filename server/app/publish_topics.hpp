@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 
+#include "app/publish_effects.hpp"
 #include "app/publish_errors.hpp"
 #include "app/publish_outlet.hpp"
 #include "app/publish_picture.hpp"
@@ -30,6 +31,7 @@ public:
     bool clusters_read() const { return clusters_read_; }
     bool overview_read() const { return overview_writer_.matched(); }
     bool errors_read() const { return errors_.read(); }
+    bool effects_read() const { return effects_.read(); }
 
     /// Looks whether anybody reads clusters.
     void look_for_readers() { clusters_read_ = regions_.clusters_read(); }
@@ -77,6 +79,7 @@ private:
     StatsEncoder stats_encoder_;
     wire::Writer<wire::Stats> stats_writer_;
     PublishedErrors errors_;
+    PublishedEffects effects_;
     StateEncoder state_encoder_;
     wire::Writer<wire::ServerState> state_writer_;
 

@@ -109,6 +109,11 @@ bool Publisher::errors_wanted() const
     return impl_->topics.errors_read();
 }
 
+bool Publisher::effects_wanted() const
+{
+    return impl_->topics.effects_read();
+}
+
 void Publisher::offer(const Snapshot& snapshot, const LoopStats& loop)
 {
     const Clock::time_point now = Clock::now();

@@ -10,6 +10,7 @@
 #include "control/controller.hpp"
 #include "meter/error_window.hpp"
 #include "scene/server_settings.hpp"
+#include "sim/plan.hpp"
 #include "sim/settings.hpp"
 #include "sim/snapshot.hpp"
 
@@ -26,14 +27,25 @@ struct ErrorReport {
     double target = 0;                            ///< median that is held for all; 0: none
 };
 
+/// What the effects did in a frame.
+struct EffectReport {
+    struct Entry {
+        PlannedEffect effect;
+        EffectWork work;
+    };
+    std::uint64_t frame = 0;
+    std::vector<Entry> effects; ///< all that the program knows
+};
+
 /// How the server's loop goes, as means over about the last second.
 struct LoopStats {
     double frame_rate_hz;
-    double work_ms;                              ///< of a frame, without the wait for the next
-    double real_time_factor;                     ///< scene time, in SI seconds, per second of wall time
-    double frame_rate_target_hz = 0;             ///< that the loop paces itself to; 0: as fast as it goes
-    ControlReport regulation{};                  ///< at the frame's start
-    std::shared_ptr<const ErrorReport> errors{}; ///< the newest; null: they are not measured
+    double work_ms;                                ///< of a frame, without the wait for the next
+    double real_time_factor;                       ///< scene time, in SI seconds, per second of wall time
+    double frame_rate_target_hz = 0;               ///< that the loop paces itself to; 0: as fast as it goes
+    ControlReport regulation{};                    ///< at the frame's start
+    std::shared_ptr<const ErrorReport> errors{};   ///< the newest; null: they are not measured
+    std::shared_ptr<const EffectReport> effects{}; ///< the newest; null: nobody reads it
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop
@@ -73,8 +85,9 @@ public:
     /// in the settings a frame is due.
     bool clusters_wanted() const;
 
-    /// Whether somebody reads errors.
+    /// Whether somebody reads errors, and effects.
     bool errors_wanted() const;
+    bool effects_wanted() const;
 
     /// Copies the frame into a slot that holds the newest one, and returns.
     void offer(const Snapshot& snapshot, const LoopStats& loop);

@@ -18,7 +18,7 @@ ControlScope scope_of(const SceneEditor& editor, const Simulation& simulation)
         scope.most_size = std::max(scope.most_size, partition.max_cluster_size);
         scope.breadth = scope.breadth || std::isfinite(partition.max_breadth);
     }
-    scope.opening = simulation.settings().gravity.has_value();
+    scope.opening = called_for(simulation.settings()).gravity.has_value();
     scope.life = simulation.plan().clocked;
     return scope;
 }

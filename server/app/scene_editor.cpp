@@ -17,6 +17,20 @@ bool of_background(const Assignment& assignment)
     return assignment.key.starts_with(background_table);
 }
 
+/// Switches of effects that the scene does not have.
+Problems idle_switches(const std::vector<Assignment>& settings, const SimulationSettings& scene)
+{
+    Problems found;
+    for_each_effect(scene, [&](std::string_view name, const auto& table) {
+        const std::string key = "effects." + std::string(name);
+        for (const Assignment& assignment : settings)
+            if (assignment.key == key && !named(table))
+                found.push_back(key + " switches what the scene does not have; slodctl effect list prints "
+                                      "what it has.");
+    });
+    return found;
+}
+
 } // namespace
 
 bool are_of_background(const std::vector<Assignment>& settings)
@@ -27,8 +41,12 @@ bool are_of_background(const std::vector<Assignment>& settings)
 Problems unchangeable(const std::vector<Assignment>& settings)
 {
     // Of [server] its frame_rate alone, which its own reader says.
-    const std::vector<std::string> tables{"background", "control",         "gravity",     "meter",
-                                          "server",     "uniform_gravity", "uniform_wind"};
+    std::vector<std::string> tables{"background", "control", "effects", "meter", "server"};
+    SimulationSettings none;
+    for_each_effect(none, [&]<class Table>(std::string_view name, const Table&) {
+        if constexpr (requires(Table table) { table.has_value(); }) // of [[tables]] each would need a name
+            tables.emplace_back(name);
+    });
     Problems found;
     for (const Assignment& assignment : settings) {
         const std::string_view table = std::string_view(assignment.key).substr(0, assignment.key.find('.'));
@@ -120,9 +138,12 @@ Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t
         return {own->key + " is set by itself; give " + others->key + " in a command of its own."};
 
     SimulationSettings wanted = simulation_.settings();
-    if (Problems found = assign_fields(wanted, settings); !found.empty())
+    Problems found = assign_fields(wanted, settings);
+    if (found.empty())
+        found = idle_switches(settings, wanted);
+    if (!found.empty())
         return found;
-    if (Problems found = simulation_.change_settings(wanted); !found.empty())
+    if (found = simulation_.change_settings(wanted); !found.empty())
         return found;
     log_.push_back({.frame = frame, .kind = InputKind::ChangeSettings, .region = {}, .settings = settings});
     return {};

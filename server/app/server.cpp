@@ -141,7 +141,8 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
                            .real_time_factor = means.real_time_factor,
                            .frame_rate_target_hz = free_run_ ? 0 : steering_->loop().server.frame_rate,
                            .regulation = steering_->regulation(),
-                           .errors = errors_});
+                           .errors = errors_,
+                           .effects = effects_});
     }
     const Clock::time_point end = Clock::now();
     const FrameTime took{.wall_s = std::chrono::duration<double>(end - start_).count(),
@@ -158,6 +159,7 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
         each_frame_(*snapshot, took, regulation);
     if (new_second_) {
         report_errors(metering, regulation);
+        report_effects(*snapshot);
         each_second_({*snapshot, meter.means(), simulation_->plan(), regulation, simulation_->error()});
     }
 }
@@ -175,6 +177,18 @@ void Server::report_errors(const MeterSettings& metering, const ControlReport& r
         if (const auto name = names.find(measured.row); name != names.end())
             report.regions[name->second] = measured.error;
     errors_ = std::make_shared<ErrorReport>(std::move(report));
+}
+
+void Server::report_effects(const Snapshot& snapshot)
+{
+    effects_.reset();
+    if (!publisher_ || !publisher_->effects_wanted())
+        return;
+    EffectReport report{.frame = snapshot.frame, .effects = {}};
+    const std::vector<PlannedEffect>& planned = simulation_->plan().effects;
+    for (std::size_t row = 0; row < planned.size(); ++row)
+        report.effects.push_back({planned[row], snapshot.effects[row]});
+    effects_ = std::make_shared<EffectReport>(std::move(report));
 }
 
 double Server::encoding_ms()

@@ -61,6 +61,7 @@ private:
 
     /// Has the errors that are known now published.
     void report_errors(const MeterSettings& metering, const ControlReport& regulation);
+    void report_effects(const Snapshot& snapshot);
 
     /// What the publisher spent on a frame since the last call, if it encoded one.
     double encoding_ms();
@@ -78,10 +79,11 @@ private:
     std::optional<Publisher> publisher_;
     std::optional<Steering> steering_;
     MeterBudget meter_budget_;
-    std::shared_ptr<const ErrorReport> errors_; ///< to be published
-    Pacer::Clock::time_point start_{};          ///< of the run
-    std::uint64_t frames_encoded_ = 0;          ///< by the publisher, when that was last asked
-    bool new_second_ = true;                    ///< the next frame is the first of a second
+    std::shared_ptr<const ErrorReport> errors_;   ///< to be published
+    std::shared_ptr<const EffectReport> effects_; ///< likewise
+    Pacer::Clock::time_point start_{};            ///< of the run
+    std::uint64_t frames_encoded_ = 0;            ///< by the publisher, when that was last asked
+    bool new_second_ = true;                      ///< the next frame is the first of a second
 };
 
 } // namespace slod

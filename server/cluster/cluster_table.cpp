@@ -56,6 +56,7 @@ ClusterSlot ClusterTable::take_slot()
     if (free_slots.empty()) {
         const auto slot = std::uint32_t(slot_count());
         for_each_column(*this, [](auto& column) { column.emplace_back(); });
+        generation.back() = generations;
         free_slots.push_back({slot});
     }
     const ClusterSlot slot = free_slots.back();

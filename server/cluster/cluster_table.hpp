@@ -125,6 +125,7 @@ struct ClusterTable {
 
     std::vector<ClusterSlot> free_slots; ///< last freed, first taken
     std::uint64_t formations = 0;        ///< formings so far
+    std::uint32_t generations = 0;       ///< that slots had before this table, at most
 };
 
 } // namespace slod

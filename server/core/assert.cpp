@@ -11,4 +11,12 @@ void assertion_failed(const char* claim, const char* file, int line)
     std::abort();
 }
 
+void require_none(const std::vector<std::string>& problems)
+{
+    for (const std::string& problem : problems)
+        std::fprintf(stderr, "broken invariant: %s\n", problem.c_str());
+    if (!problems.empty())
+        std::abort();
+}
+
 } // namespace slod

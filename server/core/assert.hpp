@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace slod {
 
 #ifdef SLOD_VALIDATE
@@ -11,6 +14,9 @@ inline constexpr bool validating = false;
 
 /// Prints what was claimed and where, and aborts.
 [[noreturn]] void assertion_failed(const char* claim, const char* file, int line);
+
+/// Prints what was found wrong with a structure, a sentence a line, and aborts; nothing when that is nothing.
+void require_none(const std::vector<std::string>& problems);
 
 } // namespace slod
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.hpp"
 
@@ -20,9 +21,9 @@ double fall_slope(double drag, double time, double drift, double fall)
 } // namespace
 
 Air::Air(const UniformFields& fields, const std::optional<QuadraticDragSettings>& quadratic,
-         const FieldSettings& settings, const FieldSource& source, double step)
+         const FieldSettings& settings, const FieldSource& source, double step, Tick tick)
     : quadratic_(quadratic ? quadratic->coefficient : 0),
-      winds_(std::make_unique<FieldSet<AirFields>>(settings, source)), step_(step)
+      winds_(std::make_unique<FieldSet<AirFields>>(settings, source, std::move(tick))), step_(step)
 {
     set_uniform(fields);
 }

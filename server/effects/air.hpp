@@ -18,7 +18,7 @@ class Air {
 public:
     /// `fields` are what is the same everywhere; its wind blows besides the others.
     Air(const UniformFields& fields, const std::optional<QuadraticDragSettings>& quadratic,
-        const FieldSettings& settings, const FieldSource& source, double step);
+        const FieldSettings& settings, const FieldSource& source, double step, Tick tick = {});
 
     /// Takes other uniform fields from here on.
     void set_uniform(const UniformFields& fields);
@@ -75,6 +75,7 @@ public:
     using Counts = FieldSet<AirFields>::Counts;
     /// Of the winds that clusters moved in since the last call of this.
     Counts take_counts() { return winds_->take_counts(); }
+    auto take_times_ns() { return winds_->take_times_ns(); }
 
 private:
     Felt felt_in(const FieldValue& wind, const Vector3d& velocity, double duration) const;

@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 
 namespace slod {
+
 void Draining::reserve(const ClusterTable& clusters, std::size_t member_count)
 {
     remaking_.reserve(clusters, member_count);

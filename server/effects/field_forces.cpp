@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/parallel.hpp"
 
@@ -23,8 +24,8 @@ Symmetric3 symmetric_part(const Matrix3d& m)
 
 } // namespace
 
-FieldForces::FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity)
-    : fields_(settings, source), gravity_(gravity)
+FieldForces::FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity, Tick tick)
+    : fields_(settings, source, std::move(tick)), gravity_(gravity)
 {}
 
 void FieldForces::reserve(std::size_t slots)

@@ -11,7 +11,7 @@ namespace slod {
 class FieldForces {
 public:
     /// `gravity`: the clusters attract each other too.
-    FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity);
+    FieldForces(const FieldSettings& settings, const FieldSource& source, bool gravity, Tick tick = {});
 
     /// Provides memory for so many clusters.
     void reserve(std::size_t slots);
@@ -32,6 +32,7 @@ public:
 
     using Counts = FieldSet<ForceFields>::Counts;
     Counts take_counts() { return fields_.take_counts(); }
+    auto take_times_ns() { return fields_.take_times_ns(); }
 
 private:
     FieldSet<ForceFields> fields_;

@@ -56,6 +56,8 @@ void for_each_section(SimulationSettings& simulation, Visitor&& visit)
     visit(Section{"collider", "Solids that particles bounce off."}, simulation.colliders);
     visit(Section{"emitter", "Sources of particles."}, simulation.emitters);
     visit(Section{"sink", "Parts of space in which particles die."}, simulation.sinks);
+    visit(Section{"effects", "Which of the scene's effects run; one that is switched off costs nothing."},
+          simulation.effects);
     visit(Section{"limits", "What the scene may grow to."}, simulation.limits);
 }
 

@@ -24,19 +24,15 @@ void check_plan(const Plan& plan, const RegionSettings& partition, Problems& fou
             "add one to the scene file.");
 }
 
-/// Tables that the scene has not, and cannot get: the plan has neither their phases nor their columns.
-Problems added_tables(const SimulationSettings& wanted, const SimulationSettings& present)
+/// Whether two scenes differ in nothing but values that a running plan has room for.
+bool same_plan(const SimulationSettings& a, const SimulationSettings& b)
 {
-    Problems found;
-    const auto check = [&](std::string_view key, bool is_wanted, bool is_there) {
-        if (is_wanted && !is_there)
-            found.push_back(std::string(key) +
-                            " is not in the scene, and cannot come while it runs; start the server with it.");
-    };
-    check("gravity", wanted.gravity.has_value(), present.gravity.has_value());
-    check("uniform_gravity", wanted.uniform_gravity.has_value(), present.uniform_gravity.has_value());
-    check("uniform_wind", wanted.uniform_wind.has_value(), present.uniform_wind.has_value());
-    return found;
+    return a.gravity.has_value() == b.gravity.has_value() &&
+           a.uniform_gravity.has_value() == b.uniform_gravity.has_value() &&
+           a.uniform_wind.has_value() == b.uniform_wind.has_value() && a.linear_drag == b.linear_drag &&
+           a.quadratic_drag == b.quadratic_drag && a.fields == b.fields && a.speed_limit == b.speed_limit &&
+           a.brownian == b.brownian && a.colliders == b.colliders && a.sinks == b.sinks &&
+           a.emitters.size() == b.emitters.size();
 }
 
 } // namespace
@@ -137,10 +133,7 @@ Problems Simulation::remove_region(std::string_view name)
 
 Problems Simulation::change_settings(const SimulationSettings& wanted)
 {
-    State& s = *state_;
-    const SimulationSettings& present = s.settings;
-    if (Problems found = added_tables(wanted, present); !found.empty())
-        return found;
+    const SimulationSettings& present = state_->asked;
     Problems found = slod::problems(wanted);
     const auto fixed = [&](std::string_view key, bool same) {
         if (!same)
@@ -152,33 +145,32 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("time", wanted.time == present.time);
     fixed("kind", wanted.kinds == present.kinds);
     fixed("motion", wanted.motion == present.motion);
-    fixed("linear_drag", wanted.linear_drag == present.linear_drag);
-    fixed("collider", wanted.colliders == present.colliders);
     fixed("emitter", wanted.emitters == present.emitters);
-    fixed("sink", wanted.sinks == present.sinks);
     fixed("limits", wanted.limits == present.limits);
     fixed("background", wanted.background == present.background);
     fixed("sharing", wanted.sharing == present.sharing);
     fixed("region", wanted.regions == present.regions);
-    fixed("gravity", wanted.gravity.has_value() == present.gravity.has_value());
-    fixed("uniform_gravity", wanted.uniform_gravity.has_value() == present.uniform_gravity.has_value());
-    fixed("uniform_wind", wanted.uniform_wind.has_value() == present.uniform_wind.has_value());
-    fixed("quadratic_drag", wanted.quadratic_drag == present.quadratic_drag);
-    fixed("speed_limit", wanted.speed_limit == present.speed_limit);
-    fixed("brownian", wanted.brownian == present.brownian);
-    for_each_field_table(wanted.fields, [&]<class F>(const typename F::Table& table) {
-        fixed(F::name, table == present.fields.of<F>());
-    });
     if (!found.empty())
         return found;
-    s.forces_stale = s.forces_stale || wanted.gravity != present.gravity;
-    if (wanted.gravity)
-        s.scale_pulls(present.gravity->strength > 0 ? wanted.gravity->strength / present.gravity->strength
-                                                    : 0);
-    s.settings = wanted;
-    s.set_fields();
-    s.set_detail();
+    if (same_plan(called_for(wanted), state_->settings))
+        state_->take(wanted);
+    else
+        state_ = state_->with(wanted, particles());
     return {};
+}
+
+/// Under the same plan.
+void Simulation::State::take(const SimulationSettings& wanted)
+{
+    const auto before = settings.gravity;
+    asked = wanted;
+    settings = called_for(wanted);
+    forces_stale = forces_stale || settings.gravity != before;
+    if (before)
+        scale_pulls(before->strength > 0 ? settings.gravity->strength / before->strength : 0);
+    set_fields();
+    set_detail();
+    meter.forget();
 }
 
 Problems Simulation::set_detail(const Detail& detail)

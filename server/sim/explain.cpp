@@ -33,6 +33,8 @@ std::string table(const std::string& title, const std::vector<PlannedColumn>& co
 
 std::string what_it_does(const PlannedEffect& effect)
 {
+    if (effect.switched_off)
+        return "switched off";
     const std::string left_out =
         effect.powerless == 0 ? ""
                               : "strength 0 left out: " + std::to_string(effect.powerless) + " of them, ";
@@ -69,7 +71,7 @@ std::string explain(const Plan& plan, const SimulationSettings& settings)
     text += "motion   " + name_of(settings.motion.motion) + "\n";
     text += "flow map " + name_of(plan.map) + (plan.map_is_exact ? ", exact at every cluster size\n" : "\n");
     text += "update   " + updates(plan) + "\n";
-    if (settings.gravity)
+    if (settings.gravity && settings.effects.runs("gravity"))
         text += gravity_line(*settings.gravity);
     text += "\nphases\n";
     for (std::size_t phase = 0; phase < phase_count; ++phase)

@@ -36,6 +36,7 @@ void Simulation::State::observe(const Request& request)
     snapshot.counts.pools = tree.pool_count();
     snapshot.detail = tree.detail;
     count_regions();
+    note_effects();
     snapshot.conserved = {};
     snapshot.field_energy = 0;
     if (request.conserved) {

@@ -142,10 +142,27 @@ void list_effects(Plan& plan, const SimulationSettings& settings)
     plan.effects.push_back({"sink", !settings.sinks.empty(), "per member"});
 }
 
+void note_switches(Plan& plan, const SimulationSettings& asked)
+{
+    for_each_effect(asked, [&](std::string_view name, const auto& table) {
+        plan.effects[effect_row(name)].switched_off = named(table) && !asked.effects.runs(name);
+    });
+}
+
 } // namespace
 
-Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial)
+std::string_view PlannedEffect::state() const
 {
+    if (active)
+        return "active";
+    if (switched_off)
+        return "off";
+    return powerless > 0 ? "powerless" : "absent";
+}
+
+Plan compile_plan(const SimulationSettings& asked, const ParticleSet& initial)
+{
+    const SimulationSettings settings = called_for(asked);
     Plan plan;
     plan.several_kinds = settings.kinds.size() > 1;
     const auto mortal = [](const EmitterSettings& emitter) { return std::isfinite(emitter.lifetime); };
@@ -158,6 +175,7 @@ Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial
     decide_phases(plan, settings);
     list_columns(plan);
     list_effects(plan, settings);
+    note_switches(plan, asked);
     return plan;
 }
 

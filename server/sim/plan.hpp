@@ -24,6 +24,10 @@ struct PlannedEffect {
     bool active;
     std::string_view acts_on_clusters; ///< "linear", "linearised", "per member", "births" or "deaths"
     std::size_t powerless = 0;         ///< tables of it that are left out, as their strength is 0
+    bool switched_off = false;         ///< the scene has it, and does not want it to run
+
+    /// "active", "off", "powerless" or "absent".
+    std::string_view state() const;
 };
 
 /// What a scene comes down to: the phases that run, and the columns that exist. Compiled once from the
@@ -46,14 +50,14 @@ struct Plan {
     bool counting_moments = false; ///< masses differ or are all 0: clusters are also weighed by number
     float uniform_mass = 0;        ///< of every particle, unless several_masses
     std::array<bool, phase_count> runs{};
-    std::vector<PlannedEffect> effects;
+    std::vector<PlannedEffect> effects; ///< by effect_row()
     std::vector<PlannedColumn> member_columns;
     std::vector<PlannedColumn> cluster_columns;
 
     bool has(Phase phase) const { return runs[std::size_t(phase)]; }
 };
 
-/// Compiles the plan of a scene that starts with `initial`.
+/// Compiles the plan of a scene that starts with `initial`: of what of its effects is switched on.
 Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial);
 
 /// The plan in words, for --explain: phases, effects active and absent, map kind, columns and bytes.

@@ -123,7 +123,9 @@ void check_winds(const SimulationSettings& settings, Problems& found)
 {
     const auto& linear = settings.linear_drag;
     const auto& quadratic = settings.quadratic_drag;
-    if ((linear && linear->rate > 0) || (quadratic && quadratic->coefficient > 0))
+    const auto& runs = settings.effects;
+    if ((linear && linear->rate > 0 && runs.runs("linear_drag")) ||
+        (quadratic && quadratic->coefficient > 0 && runs.runs("quadratic_drag")))
         return;
     std::string reason = " and the scene has none; add [linear_drag] or [quadratic_drag]";
     if (linear && quadratic)
@@ -132,8 +134,11 @@ void check_winds(const SimulationSettings& settings, Problems& found)
         reason = ", but linear_drag.rate = 0; use more than 0";
     else if (quadratic)
         reason = ", but quadratic_drag.coefficient = 0; use more than 0";
+    if ((linear && !runs.runs("linear_drag")) || (quadratic && !runs.runs("quadratic_drag")))
+        reason = ", which is switched off; set effects." + std::string(linear ? "linear" : "quadratic") +
+                 "_drag = true, or switch the wind off too";
     const auto check = [&](std::string_view name, bool blows) {
-        if (blows)
+        if (blows && runs.runs(name))
             found.push_back(std::string(name) + " acts through the air's drag alone" + reason +
                             ", or leave it out.");
     };
@@ -187,7 +192,27 @@ void check_regions(const std::vector<RegionOfInterest>& regions, const SharingSe
     }
 }
 
+/// What is switched off is there.
+void check_switches(const SimulationSettings& settings, Problems& found)
+{
+    for_each_effect(settings, [&](std::string_view name, const auto& table) {
+        if (!settings.effects.runs(name) && !named(table))
+            found.push_back("effects." + std::string(name) +
+                            " = false switches off what the scene does not "
+                            "have; remove it, or give the scene the effect.");
+    });
+}
+
 } // namespace
+
+SimulationSettings called_for(SimulationSettings settings)
+{
+    for_each_effect(settings, [&](std::string_view name, auto& table) {
+        if (!settings.effects.runs(name))
+            table = {};
+    });
+    return settings;
+}
 
 Problems problems_beside(const RegionOfInterest& region, std::span<const RegionOfInterest> others,
                          const SharingSettings& sharing)
@@ -224,6 +249,7 @@ Problems problems(const SimulationSettings& settings)
     check_lives(settings.motion, found);
     check_rigid_rules(settings.motion, found);
     check_winds(settings, found);
+    check_switches(settings, found);
     return found;
 }
 

@@ -16,6 +16,7 @@
 #include "effects/quadratic_drag.hpp"
 #include "effects/settings.hpp"
 #include "effects/sink_settings.hpp"
+#include "effects/switches.hpp"
 #include "gravity/settings.hpp"
 #include "tree/region.hpp"
 #include "tree/settings.hpp"
@@ -80,8 +81,42 @@ struct SimulationSettings {
     std::vector<ColliderSettings> colliders;
     std::vector<EmitterSettings> emitters;
     std::vector<SinkSettings> sinks;
+    EffectSwitches effects;
     LimitSettings limits;
 };
+
+/// Calls visit(name, table) for each effect that can be switched and its table: a std::optional, or a
+/// std::vector with an element for each.
+template <class Settings, class Visitor>
+void for_each_effect(Settings& settings, Visitor&& visit)
+{
+    visit("gravity", settings.gravity);
+    visit("uniform_gravity", settings.uniform_gravity);
+    visit("linear_drag", settings.linear_drag);
+    visit("uniform_wind", settings.uniform_wind);
+    visit("quadratic_drag", settings.quadratic_drag);
+    for_each_field_table(settings.fields, [&]<class F>(auto& table) { visit(F::name, table); });
+    visit("speed_limit", settings.speed_limit);
+    visit("brownian", settings.brownian);
+    visit("collider", settings.colliders);
+    visit("emitter", settings.emitters);
+    visit("sink", settings.sinks);
+}
+
+/// Whether the scene names an effect, by its table.
+template <class Settings>
+bool named(const std::optional<Settings>& table)
+{
+    return table.has_value();
+}
+template <class Settings>
+bool named(const std::vector<Settings>& table)
+{
+    return !table.empty();
+}
+
+/// The settings without the effects that are switched off: what is simulated.
+SimulationSettings called_for(SimulationSettings settings);
 
 /// Regions of interest at one time, besides the background.
 inline constexpr std::size_t max_regions = 4096;

@@ -22,6 +22,7 @@ const Snapshot& Simulation::step(const Request& request)
     State& s = *state_;
     s.snapshot.profile = {};
     s.snapshot.counts = {};
+    s.snapshot.effects = {};
     //                                                      reads                   writes
     s.run(Phase::Commands, [&] { s.open(request); });    // slabs, regions       -> pool, tree, tides, frame
     s.run(Phase::OpenKick, [&] { s.kick(); });           // accelerations, tides -> velocities, maps
@@ -35,7 +36,7 @@ const Snapshot& Simulation::step(const Request& request)
     s.run(Phase::Snapshot, [&] { s.observe(request); }); // clusters             -> snapshot
     s.run(Phase::Meter, [&] { s.sample(request); });     // clusters, members    -> errors
     if constexpr (validating)
-        SLOD_ASSERT(s.problems().empty());
+        require_none(s.problems());
     return s.snapshot;
 }
 
@@ -52,7 +53,7 @@ const Plan& Simulation::plan() const
 
 const SimulationSettings& Simulation::settings() const
 {
-    return state_->settings;
+    return state_->asked;
 }
 
 const Detail& Simulation::detail() const

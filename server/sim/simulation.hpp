@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "cluster/particles.hpp"
+#include "core/tick.hpp"
 #include "sim/error_meter.hpp"
 #include "sim/plan.hpp"
 #include "sim/settings.hpp"
@@ -18,9 +19,6 @@ namespace slod {
 /// clock. Call it from one thread, inside ThreadTeam::run; the result does not depend on the team's size.
 class Simulation {
 public:
-    /// Time now in nanoseconds since any fixed moment; used for the profile only.
-    using Tick = std::function<std::int64_t()>;
-
     struct Options {
         std::string_view isa; ///< instruction set of the kernels; empty: the fastest this processor runs
         Tick tick;            ///< empty: the profile stays 0
@@ -54,8 +52,11 @@ public:
     Problems change_region(const RegionOfInterest& region); ///< the one of its name, or the background
     Problems remove_region(std::string_view name);          ///< its clusters go to the others
 
-    /// Takes new values of the settings that may change while the scene runs: gravity, the uniform fields'
-    /// acceleration and wind; which effects there are may not. Regions have functions of their own.
+    /// Takes new settings of effects, and which of them run. Values of gravity, uniform gravity and uniform
+    /// wind are taken as they are; for anything else a new plan is compiled, and all clusters are formed anew
+    /// from their members: that takes as long as to start the scene with so many particles, and as much
+    /// memory besides what is there. Emitters stay, though they can be switched off and on. Regions have
+    /// functions of their own.
     Problems change_settings(const SimulationSettings& wanted);
 
     /// Makes all of the scene coarser or finer than it asks for, gradually, from the next step on. Refused

@@ -11,6 +11,7 @@
 #include "effects/collisions.hpp"
 #include "effects/draining.hpp"
 #include "effects/fields/field_set.hpp"
+#include "effects/switches.hpp"
 #include "sim/phase.hpp"
 #include "tree/slod_tree.hpp"
 
@@ -97,6 +98,15 @@ inline void add_events(FrameCounts& sum, const FrameCounts& frame)
     }
 }
 
+/// What an effect did in a frame.
+struct EffectWork {
+    std::uint64_t clusters = 0;  ///< acted on, once for each element of its table
+    std::uint64_t particles = 0; ///< acted on one by one
+    /// Wall time, of all threads together where an effect of place is meant. What several do in one pass,
+    /// speed_limit and brownian, counts for each; what is propagated exactly, for none.
+    double ms = 0;
+};
+
 /// The clusters at the end of a frame, one array per quantity, all of the same length: what is
 /// published, drawn and tested. Empty unless somebody asked for it in that frame.
 struct ClusterStates {
@@ -134,11 +144,12 @@ struct Snapshot {
     /// Potential energy of all particles in the effects of place that have one, where conserved quantities
     /// were asked for.
     double field_energy = 0;
-    Losses drained;                  ///< what sinks took in this frame
-    Losses killed;                   ///< what colliders did, with the velocities of the impacts
-    StepProfile profile;             ///< of this frame
-    std::vector<RegionLoad> regions; ///< in order of precedence, the background last
-    Detail detail;                   ///< that the frame was run at
+    Losses drained;      ///< what sinks took in this frame
+    Losses killed;       ///< what colliders did, with the velocities of the impacts
+    StepProfile profile; ///< of this frame
+    std::array<EffectWork, effect_count> effects{}; ///< by effect_row()
+    std::vector<RegionLoad> regions;                ///< in order of precedence, the background last
+    Detail detail;                                  ///< that the frame was run at
     ClusterStates clusters;
 };
 

@@ -10,131 +10,6 @@
 #include "sim/integrator.hpp"
 
 namespace slod {
-namespace {
-
-const simd::KernelTable* kernels_named(std::string_view isa)
-{
-    const simd::KernelTable* found = simd::kernels(isa);
-    SLOD_ASSERT(found != nullptr);
-    return found;
-}
-
-ClusterTable::Columns cluster_columns(const Plan& plan)
-{
-    return {.map = plan.map == MapKind::Full,
-            .tide = plan.clocked && plan.has(Phase::Forces),
-            .acceleration = plan.has(Phase::Forces),
-            .counting_moments = plan.counting_moments,
-            .expiry = plan.finite_lives,
-            .withheld = plan.withholding,
-            .turning = plan.turning,
-            .strain = plan.local_air && plan.clocked};
-}
-
-MapRule map_rule(const Plan& plan, const UniformFields& fields, double step)
-{
-    return {plan.map, fields.drag, step, !plan.turning && !plan.local_air};
-}
-
-double background_cell_side(const RegionSettings& background, const ParticleSet& initial)
-{
-    return std::isfinite(background.max_breadth) ? background.max_breadth : spanning_cell_side(initial);
-}
-
-SlodTree tree_of(const SimulationSettings& settings, const ParticleSet& initial)
-{
-    SlodTree tree(settings.background, background_cell_side(settings.background, initial));
-    for (const RegionOfInterest& region : settings.regions)
-        open_region(tree, region);
-    settle(tree);
-    return tree;
-}
-
-std::vector<Emitter> emitters_of(const SimulationSettings& settings)
-{
-    std::vector<Emitter> emitters;
-    for (const EmitterSettings& emitter : settings.emitters) {
-        const auto named = [&](const ParticleKind& kind) { return kind.name == emitter.kind; };
-        const auto kind = std::find_if(settings.kinds.begin(), settings.kinds.end(), named);
-        SLOD_ASSERT(kind != settings.kinds.end());
-        emitters.emplace_back(emitter, std::uint32_t(emitters.size()),
-                              std::uint8_t(kind - settings.kinds.begin()), settings.seed);
-    }
-    return emitters;
-}
-
-std::optional<Collisions> collisions_of(const SimulationSettings& settings, const Plan& plan,
-                                        const UniformFields& fields, const Air* air)
-{
-    if (settings.colliders.empty())
-        return {};
-    const Collisions::Rules rules{.carries_members = plan.map != MapKind::Identity,
-                                  .exact = plan.map_is_exact,
-                                  .full_map = plan.map == MapKind::Full};
-    return Collisions(settings.colliders, fields, settings.time.step, rules, air);
-}
-
-std::optional<Draining> draining_of(const SimulationSettings& settings)
-{
-    return settings.sinks.empty() ? std::nullopt : std::optional<Draining>(std::in_place, settings.sinks);
-}
-
-std::optional<Air> air_of(const SimulationSettings& settings, const Plan& plan, const UniformFields& fields)
-{
-    if (!plan.air)
-        return {};
-    return std::optional<Air>(std::in_place, fields, settings.quadratic_drag, settings.fields,
-                              FieldSource{settings.seed}, settings.time.step);
-}
-
-} // namespace
-
-Simulation::State::State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options)
-    : settings(scene), plan(compile_plan(scene, initial)), kernels(kernels_named(options.isa)),
-      tick(options.tick), gravitational_constant(scene.units.gravitational_constant()),
-      fields(scene.uniform_gravity, scene.linear_drag, scene.uniform_wind),
-      propagator(fields.over(scene.time.step)),
-      store(cluster_columns(plan), {plan.several_masses, plan.several_kinds, plan.finite_lives},
-            map_rule(plan, fields, scene.time.step)),
-      tree(tree_of(scene, initial)), reforming(scene.motion, context()), regrouping(scene.motion, context()),
-      air(air_of(scene, plan, fields)),
-      collisions(collisions_of(scene, plan, fields, plan.local_air ? &*air : nullptr)),
-      draining(draining_of(scene)),
-      emission(emitters_of(scene), fields, 0.5 * scene.motion.longest_life * scene.time.step,
-               collisions ? &collisions->colliders() : nullptr, air ? &*air : nullptr,
-               draining ? &draining->sinks() : nullptr),
-      meter(scene.seed), particle_count(initial.size())
-{
-    if (scene.gravity)
-        gravitational_constant *= scene.gravity->strength;
-    else
-        gravity.closure = false; // members do not attract each other
-    if (plan.member_kicks)
-        member_kicks.emplace(scene.speed_limit, scene.brownian, scene.seed);
-    if (plan.field_forces)
-        field_forces.emplace(scene.fields, FieldSource{scene.seed}, scene.gravity.has_value());
-    set_detail();
-    tree.merging = tree.merging || plan.merging;
-    store.uniform_mass = plan.uniform_mass;
-    for (const ParticleKind& kind : scene.kinds)
-        store.kind_softening_squared.push_back(kind.softening * kind.softening);
-    // By one of its own, so that its room for all particles is given back.
-    Reforming(scene.motion, context())
-        .found(tree, initial, frame, plan.clocked ? Reforming::Strays::Come : Reforming::Strays::None);
-    if (plan.merging && scene.motion.build_respects_limits)
-        regrouping.divide_by_velocity(tree, frame);
-    make_room();
-    look_around();
-    if (plan.clocked) {
-        // The first forces set the clocks; what was formed without them is formed anew.
-        UpdateCounts ignored;
-        reforming.reform_all(tree, frame, ignored);
-        look_around();
-    }
-    if constexpr (validating)
-        SLOD_ASSERT(problems().empty());
-    observe({});
-}
 
 void Simulation::State::open(const Request& request)
 {
@@ -223,8 +98,12 @@ bool Simulation::State::places_are_finite() const
 void Simulation::State::propagate()
 {
     if (member_kicks) {
-        member_kicks->update(tree, {store, frame - 1, settings.time.step});
+        double ms = 0;
+        timed(ms, [&] { member_kicks->update(tree, {store, frame - 1, settings.time.step}); });
         snapshot.counts.kicked = member_kicks->changed();
+        for (const std::string_view kick : {"speed_limit", "brownian"})
+            if (plan.effects[effect_row(kick)].active)
+                work_of(kick) = {.particles = snapshot.counts.kicked, .ms = ms};
     }
     if (draining)
         draining->remember(context());
@@ -233,17 +112,19 @@ void Simulation::State::propagate()
     if (plan.local_air)
         air->ask(store.clusters, double(frame - 1) * settings.time.step);
     if (collisions)
-        collisions->fly_members(context());
+        timed(work_of("collider").ms, [&] { collisions->fly_members(context()); });
     if (plan.local_air)
         air->propagate(store.clusters);
     else
         propagate_clusters(store.clusters, propagator);
     if (air)
-        note(air->take_counts(), ForceFields::size);
+        note(air->take_counts(), air->take_times_ns(), ForceFields::size);
     if (!places_are_finite())
         refuse_unbounded(frame);
     if (collisions) {
-        snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts, snapshot.killed);
+        timed(work_of("collider").ms, [&] {
+            snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts, snapshot.killed);
+        });
         particle_count -= snapshot.counts.died;
     }
 }
@@ -260,9 +141,10 @@ void Simulation::State::turn_wind()
 void Simulation::State::expire()
 {
     if (plan.finite_lives) {
-        const std::uint64_t died = expiry.update(tree, context());
-        snapshot.counts.died += died;
-        particle_count -= died;
+        EffectWork& work = work_of("lifetime");
+        timed(work.ms, [&] { work.particles = expiry.update(tree, context()); });
+        snapshot.counts.died += work.particles;
+        particle_count -= work.particles;
     }
     if (draining)
         drain();
@@ -270,7 +152,7 @@ void Simulation::State::expire()
 
 void Simulation::State::drain()
 {
-    snapshot.drained = draining->update(tree, context());
+    timed(work_of("sink").ms, [&] { snapshot.drained = draining->update(tree, context()); });
     snapshot.counts.drained = snapshot.drained.particles;
     snapshot.counts.died += snapshot.drained.particles;
     particle_count -= snapshot.drained.particles;
@@ -280,7 +162,9 @@ void Simulation::State::emit()
 {
     const std::uint64_t room =
         settings.limits.max_particles - std::min(settings.limits.max_particles, particle_count);
-    const Emission::Births births = emission.update(tree, context(), plan.has(Phase::CloseKick), room);
+    Emission::Births births;
+    timed(work_of("emitter").ms,
+          [&] { births = emission.update(tree, context(), plan.has(Phase::CloseKick), room); });
     snapshot.counts.born = births.born;
     snapshot.counts.births_refused = births.refused;
     particle_count += snapshot.counts.born;
@@ -315,18 +199,33 @@ void Simulation::State::evaluate_forces()
     else
         evaluate_fields();
     field_forces->add_to(store.clusters);
-    note(field_forces->take_counts(), 0);
+    note(field_forces->take_counts(), field_forces->take_times_ns(), 0);
 }
 
 void Simulation::State::evaluate_gravity()
 {
-    const ForceCounts counts =
-        slod::evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists, store.clusters);
+    ForceCounts counts;
+    timed(work_of("gravity").ms, [&] {
+        counts = slod::evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists,
+                                        store.clusters);
+    });
     snapshot.counts.interactions = counts.interactions;
     snapshot.counts.far_nodes = counts.far_nodes;
     snapshot.unanswered_force = counts.unanswered;
     snapshot.counts.walks = counts.groups;
     snapshot.counts.nodes_tested = counts.nodes_tested;
+}
+
+void Simulation::State::note_effects()
+{
+    for (const std::string_view everywhere :
+         {"gravity", "uniform_gravity", "linear_drag", "uniform_wind", "quadratic_drag"})
+        if (plan.effects[effect_row(everywhere)].active)
+            work_of(everywhere).clusters = snapshot.counts.clusters;
+    work_of("collider").clusters = snapshot.counts.struck;
+    work_of("collider").particles = snapshot.counts.impacts;
+    work_of("emitter").particles = snapshot.counts.born;
+    work_of("sink").particles = snapshot.counts.drained;
 }
 
 Problems Simulation::State::problems() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -25,11 +26,24 @@ namespace slod {
 
 /// What the simulation consists of, and its phases.
 struct Simulation::State {
-    State(const SimulationSettings& scene, const ParticleSet& initial, const Options& options);
+    /// What there is at the start besides particles.
+    struct Start {
+        SlodTree tree; ///< without clusters
+        std::uint64_t frame = 0;
+        std::uint64_t formations = 0;  ///< of clusters so far
+        std::uint32_t generations = 0; ///< that clusters' slots have had, at most
+    };
+
+    State(const SimulationSettings& wanted, const ParticleSet& initial, const Options& options);
+    State(const SimulationSettings& wanted, const ParticleSet& initial, const Options& options, Start start);
+
+    /// The same particles, regions and time under a plan for other effects.
+    std::unique_ptr<State> with(const SimulationSettings& wanted, const ParticleSet& particles) const;
 
     /// Commands: recycles member slabs, lets changes of regions and of gravity count, makes room, and counts
     /// the frame that begins.
     void open(const Request& request);
+    void form_clusters(const ParticleSet& particles);
     void make_room();   ///< Provides memory for the frame, so that no other phase but emit has to take any
     void look_around(); ///< Moments and forces of the clusters as they are, outside their phases
     void kick();
@@ -54,34 +68,45 @@ struct Simulation::State {
 
     std::optional<RegionRow> find_region(std::string_view name) const;
     void check_sharing(const RegionOfInterest& region, Problems& found) const;
+    void take(const SimulationSettings& wanted);
     void scale_pulls(double factor);
     void set_fields(); ///< from the settings
     void set_detail(); ///< from the settings and the tree's detail
+
+    /// Adds the milliseconds that work takes to a sum.
+    template <class Work>
+    void timed(double& ms, const Work& work)
+    {
+        ms += double(nanoseconds_of(tick, work)) * 1e-6;
+    }
 
     /// Runs and times a phase, if the plan has it.
     template <class Work>
     void run(Phase phase, const Work& work)
     {
-        if (!plan.has(phase))
-            return;
-        const std::int64_t start = tick ? tick() : 0;
-        work();
-        if (tick)
-            snapshot.profile[phase] += double(tick() - start) * 1e-6;
+        if (plan.has(phase))
+            timed(snapshot.profile[phase], work);
     }
 
     double time() const { return double(frame) * settings.time.step; } ///< at the end of the frame
+    EffectWork& work_of(std::string_view effect) { return snapshot.effects[effect_row(effect)]; }
+
     /// Takes what a list of effects of place did, whose first is the `first` of all.
-    template <class Counts>
-    void note(const Counts& counts, std::size_t first)
+    template <class Counts, class Times>
+    void note(const Counts& counts, const Times& times_ns, std::size_t first)
     {
         std::copy(counts.begin(), counts.end(), snapshot.counts.fields.begin() + std::ptrdiff_t(first));
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            snapshot.effects[first_field_effect + first + i] = {.clusters = counts[i].clusters,
+                                                                .ms = double(times_ns[i]) * 1e-6};
     }
+    void note_effects(); ///< what the others did
 
     UpdateContext context() { return {store, frame, settings.time.step}; }
     Problems problems() const;
 
-    SimulationSettings settings;
+    SimulationSettings asked;    ///< as they were given
+    SimulationSettings settings; ///< what is called for of them
     Plan plan;
     const simd::KernelTable* kernels;
     Tick tick;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -101,6 +102,24 @@ SlodTree::SlodTree(const RegionSettings& background, double cell_side)
     region.settings.name = background_name;
     region.settings.partition = background;
     regions.push_back(region);
+}
+
+SlodTree SlodTree::with_regions_of(const SlodTree& other)
+{
+    const auto emptied = [](const Subtree& subtree) {
+        Subtree empty(subtree.settings, subtree.region, subtree.cell_side);
+        empty.dithered = subtree.dithered;
+        return empty;
+    };
+    SlodTree tree(other.subtrees.front().settings, other.subtrees.front().cell_side);
+    tree.subtrees.clear();
+    std::transform(other.subtrees.begin(), other.subtrees.end(), std::back_inserter(tree.subtrees), emptied);
+    tree.regions = other.regions;
+    tree.detail = other.detail;
+    tree.openings = other.openings;
+    tree.merging = other.merging;
+    settle(tree);
+    return tree;
 }
 
 std::size_t SlodTree::pool_count() const

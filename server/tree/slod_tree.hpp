@@ -37,6 +37,9 @@ struct SlodTree {
     /// With nothing but the background.
     SlodTree(const RegionSettings& background, double cell_side);
 
+    /// With the regions of another one, in their rows, as they are or were about to be, and no clusters.
+    static SlodTree with_regions_of(const SlodTree& other);
+
     std::vector<Subtree> subtrees; ///< by row
     std::vector<Region> regions;   ///< by row
     RegionIndex index;             ///< of the open ones

@@ -144,14 +144,31 @@ TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
         EXPECT_LE(answer.text.size(), 256U) << "the wire has no room for more: " << answer.text;
     };
     expect("gravty.strength", "gravty.strength cannot change while the scene runs; did you mean gravity?");
-    for (const std::string table :
-         {"galaxy.particles", "wire.commands", "linear_drag.rate", "emitter.0.rate"})
+    for (const std::string table : {"galaxy.particles", "wire.commands", "motion.clock", "emitter.0.rate"})
         expect(table, table + " cannot change while the scene runs; start the server with it. What can is in "
-                              "background, control, gravity, meter, server, uniform_gravity, uniform_wind.");
+                              "background, control, effects, meter, server, gravity");
     expect("gravity", "write table.key");
-    Request wind = request("set");
-    wind.settings = {{"uniform_wind.velocity", "[1, 0, 0]"}};
-    EXPECT_TRUE(ask(wind).text.starts_with("uniform_wind is not in the scene")) << ask(wind).text;
+    expect("effects.gravty", "did you mean gravity?");
+    expect("effects.vortex", "effects.vortex = 1 ");
+}
+
+TEST_F(Desk, EffectsAreSwitchedAndComeWhileTheSceneRuns)
+{
+    const auto set = [&](const std::string& key, const std::string& value) {
+        Request asked = request("set");
+        asked.settings = {{key, value}};
+        return ask(asked);
+    };
+    EXPECT_EQ(set("effects.gravity", "false").result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(simulation.plan().effects[effect_row("gravity")].state(), "off");
+    EXPECT_EQ(set("linear_drag.rate", "0.5").result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(simulation.plan().effects[effect_row("linear_drag")].state(), "active");
+    for (const char* value : {"true", "false"}) {
+        const Answer refused = set("effects.vortex", value);
+        EXPECT_EQ(refused.result, slod_v1_RESULT_INVALID);
+        EXPECT_TRUE(refused.text.starts_with("effects.vortex switches what the scene does not have"))
+            << refused.text;
+    }
 }
 
 TEST_F(Desk, PauseStepAndResumeDecideWhichFramesRun)

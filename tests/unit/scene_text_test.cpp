@@ -196,14 +196,20 @@ Scene random_scene(std::uint64_t seed)
         springs.resize(1); // together they may be too stiff
     bool winds = simulation.uniform_wind.has_value();
     AirFields::for_each([&]<class F> { winds = winds || !elements(simulation.fields.of<F>()).empty(); });
-    if (winds)
+    if (winds) {
         simulation.linear_drag.emplace();
+        simulation.effects.on[effect_row("linear_drag")] = true;
+    }
     if (simulation.motion.motion != Motion::Rigid) {
         simulation.motion.merged_velocities = MergedVelocities::Keep;
         simulation.motion.build_respects_limits = false;
     }
     std::tie(scene.loop.control.smallest_cluster_size, scene.loop.control.largest_cluster_size) =
         std::minmax({scene.loop.control.smallest_cluster_size, scene.loop.control.largest_cluster_size});
+    for_each_effect(simulation, [&](std::string_view name, const auto& table) {
+        if (!named(table))
+            simulation.effects.on[effect_row(name)] = true;
+    });
     scene.loop.meter.enabled = scene.loop.meter.enabled || scene.loop.control.mode == ControlMode::Error;
     scene.loop.server.isa = InstructionSet(scrambler.below(2)); // the others do not run everywhere
     scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;

@@ -5,8 +5,10 @@
 #include <atomic>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "core/tick.hpp"
 #include "effects/fields/list.hpp"
 
 namespace slod {
@@ -47,7 +49,11 @@ public:
     using List = FieldList<F...>;
     using Counts = std::array<FieldCount, List::size>;
 
-    FieldSet(const FieldSettings& settings, const FieldSource& source) { (take<F>(settings, source), ...); }
+    FieldSet(const FieldSettings& settings, const FieldSource& source, Tick tick = {})
+        : tick_(std::move(tick))
+    {
+        (take<F>(settings, source), ...);
+    }
 
     bool empty() const { return (all<F>().empty() && ...); }
 
@@ -106,7 +112,13 @@ public:
              FieldValue* sums)
     {
         std::size_t row = 0;
-        (add_all(all<F>(), tallies_[row++], first, last, wanted, place, time, sums), ...);
+        const auto add_timed = [&](const auto& elements) {
+            Tally& tally = tallies_[row++];
+            if (!elements.empty())
+                tally.ns += nanoseconds_of(
+                    tick_, [&] { add_all(elements, tally, first, last, wanted, place, time, sums); });
+        };
+        (add_timed(all<F>()), ...);
     }
 
     /// Counts all fields as evaluated for so many clusters, where one value of uniform() fields serves them.
@@ -130,6 +142,15 @@ public:
         return counts;
     }
 
+    /// Time that add() took since the last call of this, on all threads together.
+    std::array<std::int64_t, List::size> take_times_ns()
+    {
+        std::array<std::int64_t, List::size> times;
+        for (std::size_t row = 0; row < List::size; ++row)
+            times[row] = tallies_[row].ns.exchange(0);
+        return times;
+    }
+
 private:
     template <class E>
     struct Element {
@@ -140,6 +161,7 @@ private:
     /// Sums of whole numbers, which come out the same in any order.
     struct Tally {
         std::atomic<std::uint64_t> calls{0}, clusters{0};
+        std::atomic<std::int64_t> ns{0};
     };
 
     template <class E>
@@ -181,6 +203,7 @@ private:
         }
     }
 
+    Tick tick_;
     std::tuple<std::vector<Element<F>>...> elements_;
     std::array<Tally, List::size> tallies_;
 };

@@ -22,7 +22,7 @@ struct FieldList {
 
     /// Calls visit.operator()<F>() for each of them, in order.
     template <class Visitor>
-    static void for_each(Visitor&& visit)
+    static constexpr void for_each(Visitor&& visit)
     {
         (visit.template operator()<F>(), ...);
     }
