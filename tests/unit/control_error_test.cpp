@@ -135,7 +135,7 @@ TEST(ErrorControl, SaysWhenTheFinestIsNotAccurateEnough)
 // As another controller may have left them: what they make of error would be made good by smaller clusters.
 TEST(ErrorControl, TurnsFurtherLeversBackWhereTheErrorGoesFirst)
 {
-    const Detail left{.breadth = 4, .opening = 4, .life = 2};
+    const Detail left{.cluster_size = 4, .breadth = 4, .opening = 4, .life = 2};
     const ControlScope all{.opening = true, .life = true, .breadth = true};
     const auto controller = make_controller(holding(0.02, ControlPriority::Error), all, left);
     ErrorPlant plant;

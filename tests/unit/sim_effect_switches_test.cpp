@@ -155,18 +155,19 @@ TEST(EffectSwitches, NoClusterGetsTheIdentityOfAnEarlierOne)
 {
     SmallScene scene = small_scene("flow");
     Simulation simulation(scene.settings, scene.initial, {});
-    std::set<std::pair<std::uint32_t, std::uint32_t>> before;
-    std::uint64_t latest = 0;
-    const auto& states = simulation.snapshot({.clusters = true}).clusters;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        before.emplace(states.id[i].slot.index, states.id[i].generation);
-        latest = std::max(latest, states.formation[i]);
-    }
-    ASSERT_EQ(turn(simulation, "gravity", false), Problems{});
-    const auto& now = simulation.snapshot({.clusters = true}).clusters;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        EXPECT_FALSE(before.contains({now.id[i].slot.index, now.id[i].generation}));
-        EXPECT_GT(now.formation[i], latest);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> ids;
+    std::set<std::uint64_t> formations;
+    const auto note_all = [&] {
+        const ClusterStates& states = simulation.snapshot({.clusters = true}).clusters;
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            EXPECT_TRUE(ids.emplace(states.id[i].slot.index, states.id[i].generation).second);
+            EXPECT_TRUE(formations.insert(states.formation[i]).second);
+        }
+    };
+    note_all();
+    for (const bool on : {false, true}) {
+        ASSERT_EQ(turn(simulation, "gravity", on), Problems{});
+        note_all();
     }
 }
 
