@@ -9,6 +9,7 @@
 #include "tree/grouping.hpp"
 
 namespace slod {
+
 void Gathering::reserve(std::size_t count)
 {
     groups.reserve(count);

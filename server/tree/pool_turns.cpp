@@ -18,7 +18,9 @@ void PoolTurns::give(const SlodTree& tree, std::uint64_t frame, bool needed)
 {
     constexpr std::size_t block = 1024;
     const bool binned = tree.subtrees[background_row].settings.bin_by != BinBy::None;
-    all_at_once_ = needed || binned || !tree.index.empty();
+    const bool closing = std::any_of(tree.subtrees.begin() + 1, tree.subtrees.end(),
+                                     [](const Subtree& closed) { return closed.pool_count() > 0; });
+    all_at_once_ = needed || binned || closing || !tree.index.empty();
     turns_.resize(std::max(turns_.size(), tree.subtrees.size()));
     for (const Subtree& subtree : tree.subtrees) {
         std::vector<std::uint8_t>& turns = turns_[subtree.region];

@@ -8,7 +8,8 @@
 namespace slod {
 
 /// When clusters that have left their pool's leaf move to the pool of the leaf where they are. At once where
-/// pools have to be right in every frame: as regions take clusters, and bins, or as the caller says. Where
+/// pools have to be right in every frame: as regions take clusters or give them away, and bins, or as the
+/// caller says. Where
 /// nobody but merges looks at them, in turns: a frame after the pool looked for merges, as those that came
 /// together, whenever that was, are the ones that may merge; and when it is flooded.
 class PoolTurns {

@@ -66,7 +66,7 @@ private:
         for (std::uint32_t slot = 0; slot < clusters.slot_count(); ++slot) {
             if (!clusters.alive(slot))
                 continue;
-            std::uint64_t& seen = at_home.try_emplace(clusters.formation[slot], frame).first->second;
+            std::uint64_t& seen = at_home.try_emplace(clusters.formation[slot], frame - 1).first->second;
             if (clusters.pool[slot] == locate(world.region(), clusters.position[slot]))
                 seen = frame;
             absence = std::max(absence, frame - seen);

@@ -301,5 +301,20 @@ TEST(SlodStability, S16_WhatADeletedRegionHeldIsAdoptedAtOnce)
     EXPECT_EQ(simulation.problems(), Problems{});
 }
 
+// In exact flow without regions clusters change pools in turns; those of a region that closes do not wait.
+TEST(SlodStability, S16_ItIsSoWhereClustersChangePoolsInTurnsToo)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_cluster_size = 64;
+    Simulation simulation(settings, ball(5000, 4, 1, 1), {});
+    run(simulation, 40);
+    ASSERT_EQ(simulation.add_region(ball_region("crowded", {0, 0, 0}, 2, 8)), Problems{});
+    run(simulation, 40);
+    ASSERT_GT(load_of(simulation, simulation.snapshot({}), "crowded").particles, 100U);
+    ASSERT_EQ(simulation.remove_region("crowded"), Problems{});
+    for (const std::uint16_t region : simulation.step({.clusters = true}).clusters.region)
+        ASSERT_EQ(region, background_row);
+}
+
 } // namespace
 } // namespace slod::test
