@@ -145,6 +145,7 @@ Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t
         return found;
     if (found = simulation_.change_settings(wanted); !found.empty())
         return found;
+    ++effect_changes_;
     log_.push_back({.frame = frame, .kind = InputKind::ChangeSettings, .region = {}, .settings = settings});
     return {};
 }

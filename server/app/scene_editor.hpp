@@ -34,6 +34,7 @@ public:
     std::size_t region_count() const { return records_.size(); } ///< the background included
     const auto& records() const { return records_; }             ///< by name
     std::uint64_t revision() const { return revisions_; }        ///< grows with every change of a region
+    std::uint64_t effect_changes() const { return effect_changes_; }
 
     // What is asked for wrongly is refused with a sentence per problem, the key first, and changes nothing.
     Problems add(const RegionOfInterest& region, const wire::Uuid& owner, double lease_s,
@@ -63,6 +64,7 @@ private:
     std::map<std::string, RegionRecord> news_;
     std::vector<LoggedCommand> log_;
     std::uint64_t revisions_ = 0; ///< given out so far
+    std::uint64_t effect_changes_ = 0;
 };
 
 } // namespace slod

@@ -95,6 +95,25 @@ TEST_F(Regulated, AnotherControllerGoesOnFromTheDetailOfTheLast)
     EXPECT_FALSE(simulation.detail().dithered);
 }
 
+// Without any force there is no error to hold, and the frame rate is; once there is one, the error is, which
+// goes first here, so that frames may take three times as long.
+TEST_F(Regulated, AnErrorIsHeldAsSoonAsAnEffectMakesOne)
+{
+    LoopSettings settings = loop(ControlMode::Error, 300);
+    settings.control.priority = ControlPriority::Error;
+    run(300, settings);
+    EXPECT_NEAR(double(simulation.snapshot({}).counts.clusters), 300, 15);
+    ASSERT_EQ(editor.set({{"gravity.strength", "1e-9"}}, frame + 1), Problems{});
+    run(30, settings);
+    const std::uint64_t clusters = simulation.snapshot({}).counts.clusters;
+    for (int i = 0; i < 100; ++i) {
+        regulator.apply(editor, ++frame);
+        const Snapshot& snapshot = simulation.step({});
+        regulator.add(snapshot, 3 * double(snapshot.counts.clusters), {});
+    }
+    EXPECT_NEAR(double(simulation.snapshot({}).counts.clusters), double(clusters), 0.1 * double(clusters));
+}
+
 TEST_F(Regulated, RegionsThatComeAreHeldToo)
 {
     run(100, loop(ControlMode::Smooth, 300));
