@@ -39,7 +39,7 @@ double still_crowding(double clusters)
 ErrorController::ErrorController(const ControlSettings& settings, const ControlScope& scope,
                                  const Detail& detail)
     : settings_(settings), scope_(scope), frame_rate_(settings, scope, detail), errors_(window),
-      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), detail_(detail)
+      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), detail_(detail), same_size_(goal_)
 {}
 
 void ErrorController::set_scope(const ControlScope& scope)
@@ -78,9 +78,11 @@ void ErrorController::note_size(const FrameWork& work)
     if (work.clusters == 0)
         return;
     const double crowding = std::log(double(work.clusters) / double(work.particles));
-    const bool same = std::abs(frame_rate_.output() - size_) < still_size;
-    const bool still = same && std::abs(crowding - crowding_) < still_crowding(double(work.clusters));
+    const bool still = std::abs(frame_rate_.output() - size_) < still_size &&
+                       std::abs(crowding - crowding_) < still_crowding(double(work.clusters));
     size_ = frame_rate_.output();
+    const bool same = std::abs(size_ - same_size_) < still_size;
+    same_size_ = same ? same_size_ : size_;
     crowding_ += (crowding - crowding_) / mean_frames;
     same_frames_ = same ? same_frames_ + 1 : 0;
     still_frames_ = still ? still_frames_ + 1 : 0;

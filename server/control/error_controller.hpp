@@ -46,8 +46,9 @@ private:
 
     Detail detail_; ///< the last
 
+    double same_size_;     ///< that the size has been near since it last turned
     double crowding_ = 0;  ///< mean over the last frames of the logarithm of clusters over particles
-    int same_frames_ = 0;  ///< in a row of the same size and the same levers
+    int same_frames_ = 0;  ///< in a row in which it was, and no lever turned
     int still_frames_ = 0; ///< of them, in a row in which the crowding did not change either
     std::uint64_t counts_since_ = 0; ///< samples of earlier frames do not count
 };
