@@ -33,6 +33,8 @@ ExitCode run_stats(const CommandLine& line, const std::stop_token& stop);
 
 /// Prints the errors of accelerations, of all particles and by region.
 ExitCode run_errors(const CommandLine& line, const std::stop_token& stop);
+
+/// Lists the effects, or sends a change of them.
 ExitCode run_effect(const CommandLine& line, const std::stop_token& stop);
 ExitCode run_echo(const CommandLine& line, const std::stop_token& stop);
 

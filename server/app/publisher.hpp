@@ -85,9 +85,8 @@ public:
     /// in the settings a frame is due.
     bool clusters_wanted() const;
 
-    /// Whether somebody reads errors, and effects.
-    bool errors_wanted() const;
-    bool effects_wanted() const;
+    bool errors_wanted() const;  ///< Whether somebody reads errors.
+    bool effects_wanted() const; ///< Whether somebody reads effects.
 
     /// Copies the frame into a slot that holds the newest one, and returns.
     void offer(const Snapshot& snapshot, const LoopStats& loop);

@@ -5,7 +5,8 @@
 
 namespace slod {
 
-/// Time now in nanoseconds since any fixed moment; used for profiles only. Empty: none are made.
+/// Time now in nanoseconds since any fixed moment; used for profiles only. Any thread may call it,
+/// several at once. Empty: none are made.
 using Tick = std::function<std::int64_t()>;
 
 /// Does the work; returns how long it took, 0 without a tick.

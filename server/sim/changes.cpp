@@ -165,6 +165,7 @@ void Simulation::State::take(const SimulationSettings& wanted)
     const auto before = settings.gravity;
     asked = wanted;
     settings = called_for(wanted);
+    note_switches(plan, wanted);
     forces_stale = forces_stale || settings.gravity != before;
     if (before)
         scale_pulls(before->strength > 0 ? settings.gravity->strength / before->strength : 0);

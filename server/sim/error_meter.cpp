@@ -26,6 +26,8 @@ void ErrorMeter::reserve(std::size_t clusters, std::size_t regions)
     attracts_.reserve(regions);
     fresh_.reserve(window + most_draws);
     taken_.reserve(window + most_draws);
+    if (of_region_.size() < regions)
+        of_region_.resize(regions);
     pulls_.reserve(clusters);
 }
 
@@ -169,9 +171,9 @@ void ErrorMeter::take(const Drawn& drawn, const ErrorSample& sample, const SlodT
 std::vector<RegionError> ErrorMeter::region_errors(const SlodTree& tree) const
 {
     std::vector<RegionError> errors;
-    for (const auto& [row, region] : of_region_)
-        if (region.number == tree.regions[row].number)
-            errors.push_back({row, region.errors.estimate()});
+    for (std::size_t row = 0; row < of_region_.size(); ++row)
+        if (of_region_[row].errors.size() > 0 && of_region_[row].number == tree.regions[row].number)
+            errors.push_back({RegionRow(row), of_region_[row].errors.estimate()});
     return errors;
 }
 

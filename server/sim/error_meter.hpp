@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -103,7 +102,7 @@ private:
     std::vector<Attracts> attracts_; ///< by row
     ExactPulls pulls_;
     ErrorWindow all_{window};
-    std::map<RegionRow, OfRegion> of_region_;
+    std::vector<OfRegion> of_region_; ///< by row
     std::vector<ErrorSample> fresh_, taken_;
 };
 

@@ -142,13 +142,6 @@ void list_effects(Plan& plan, const SimulationSettings& settings)
     plan.effects.push_back({"sink", !settings.sinks.empty(), "per member"});
 }
 
-void note_switches(Plan& plan, const SimulationSettings& asked)
-{
-    for_each_effect(asked, [&](std::string_view name, const auto& table) {
-        plan.effects[effect_row(name)].switched_off = named(table) && !asked.effects.runs(name);
-    });
-}
-
 } // namespace
 
 std::string_view PlannedEffect::state() const
@@ -158,6 +151,13 @@ std::string_view PlannedEffect::state() const
     if (switched_off)
         return "off";
     return powerless > 0 ? "powerless" : "absent";
+}
+
+void note_switches(Plan& plan, const SimulationSettings& asked)
+{
+    for_each_effect(asked, [&](std::string_view name, const auto& table) {
+        plan.effects[effect_row(name)].switched_off = named(table) && !asked.effects.runs(name);
+    });
 }
 
 Plan compile_plan(const SimulationSettings& asked, const ParticleSet& initial)

@@ -60,6 +60,9 @@ struct Plan {
 /// Compiles the plan of a scene that starts with `initial`: of what of its effects is switched on.
 Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial);
 
+/// Takes down which of the effects that the scene has are switched off.
+void note_switches(Plan& plan, const SimulationSettings& asked);
+
 /// The plan in words, for --explain: phases, effects active and absent, map kind, columns and bytes.
 std::string explain(const Plan& plan, const SimulationSettings& settings);
 

@@ -55,7 +55,8 @@ public:
     /// Takes new settings of effects, and which of them run. Values of gravity, uniform gravity and uniform
     /// wind are taken as they are; for anything else a new plan is compiled, and all clusters are formed anew
     /// from their members: that takes as long as to start the scene with so many particles, and as much
-    /// memory besides what is there. Emitters stay, though they can be switched off and on. Regions have
+    /// memory besides what is there. Emitters stay, though they can be switched off and on. What was
+    /// handed out by reference before is not valid after it. Regions have
     /// functions of their own.
     Problems change_settings(const SimulationSettings& wanted);
 

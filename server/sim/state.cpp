@@ -17,9 +17,8 @@ void Simulation::State::open(const Request& request)
     store.members.recycle(meter.recyclable_before(frame + 1));
     if (tree.unsettled)
         settle(tree);
+    metering = request.error_pairs > 0 && plan.has(Phase::Meter);
     make_room();
-    if (request.error_pairs > 0 && plan.has(Phase::Meter))
-        meter.reserve(store.clusters.slot_capacity(), tree.subtrees.size());
     if (std::exchange(forces_stale, false))
         look_around();
     ++frame;
@@ -59,6 +58,8 @@ void Simulation::State::make_room()
         member_kicks->reserve(store.clusters, kicked);
     if (draining)
         draining->reserve(store.clusters, drained);
+    if (metering)
+        meter.reserve(store.clusters.slot_capacity(), tree.subtrees.size());
     if (field_forces)
         field_forces->reserve(store.clusters.slot_capacity());
     if (air)

@@ -132,6 +132,7 @@ struct Simulation::State {
 
     ErrorMeter meter;
 
+    bool metering = false;     ///< errors are asked for in this frame
     bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
     std::uint64_t particle_count = 0;
     Snapshot snapshot;

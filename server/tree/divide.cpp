@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/assert.hpp"
 #include "core/parallel.hpp"
 #include "core/vectors.hpp"
 
@@ -102,6 +103,7 @@ void divide(std::span<DivisionKey> keys, std::span<DivisionKey> spare, std::uint
 {
     if (parts < 2)
         return;
+    SLOD_ASSERT(parts <= keys.size());
     const std::uint32_t lower = lower_count(std::uint32_t(keys.size()), parts);
     halve(keys, spare, lower);
     const auto divide_lower = [&] { divide(keys.first(lower), spare.first(lower), parts / 2); };

@@ -13,7 +13,8 @@ struct DivisionKey {
 
 /// Orders `keys` so that cutting them into `parts` runs with part_begin() puts neighbours together: by k-d
 /// splits at balanced counts, each across the longest side of what it splits. Within a part they stay in the
-/// order they were in. `spare` has room for as many.
+/// order they were in. `spare` has room for as many. There
+/// are no more parts than keys.
 void divide(std::span<DivisionKey> keys, std::span<DivisionKey> spare, std::uint32_t parts);
 
 /// First key of part `part`; the parts differ in size by at most one level's rounding, and none has more

@@ -117,7 +117,7 @@ SlodTree SlodTree::with_regions_of(const SlodTree& other)
     tree.regions = other.regions;
     tree.detail = other.detail;
     tree.openings = other.openings;
-    tree.merging = other.merging;
+    tree.merging = other.openings > 1 || other.detail != Detail{};
     settle(tree);
     return tree;
 }

@@ -38,6 +38,7 @@ struct SlodTree {
     SlodTree(const RegionSettings& background, double cell_side);
 
     /// With the regions of another one, in their rows, as they are or were about to be, and no clusters.
+    /// Whether the scene wants merges is the caller's to say again.
     static SlodTree with_regions_of(const SlodTree& other);
 
     std::vector<Subtree> subtrees; ///< by row
