@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -58,7 +59,7 @@ TEST_P(PlanOf, HasThePhasesTheSceneCallsFor)
 // A clock that advances by a millisecond at each look shows which phases are entered.
 TEST_P(PlanOf, IsWhatRuns)
 {
-    std::int64_t now = 0;
+    std::atomic<std::int64_t> now{0}; // fields look from all threads
     Simulation simulation(scene_.settings, scene_.initial,
                           {.isa = {}, .tick = [&] { return now += 1'000'000; }});
     const StepProfile profile = simulation.step({}).profile;
