@@ -98,7 +98,8 @@ TEST(CostSweep, WhatNothingAcceleratesOtherwiseThanExactlyHasNoError)
 // that times some steps. Energy is kept to the order of (step / time of the closest pairs)^2, percents.
 TEST(CostSweep, WhatAnIsolatedSystemConservesIsFollowed)
 {
-    const Row& row = small_sweep(two_motions).rows[0];
+    const Sweep sweep = small_sweep(two_motions);
+    const Row& row = sweep.rows[0];
     EXPECT_LT(row.drifts.momentum, 1e-5);
     EXPECT_LT(row.drifts.angular_momentum, 1e-5);
     EXPECT_GT(std::abs(row.drifts.energy), 0);
