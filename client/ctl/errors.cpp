@@ -31,14 +31,11 @@ ExitCode run_errors(const CommandLine& line, const std::stop_token& stop)
     const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
-    if (!wait_until(connection, stop, end, [&] { return connection.error() != nullptr; })) {
-        complain(no_news_sentence("no error was measured in time; it is where the scene has gravity or other "
-                                  "effects of place, and meter.enabled is true",
-                                  connection));
+    const auto measured = [&] { return connection.error() != nullptr; };
+    if (!wait_for_report(connection, stop, end, measured,
+                         "no error was measured in time; it is where the scene has gravity or other effects "
+                         "of place, and meter.enabled is true"))
         return ExitCode::TimedOut;
-    }
-    constexpr std::chrono::milliseconds rest_of_report{100}; // regions are told right after
-    wait_until(connection, stop, client::Clock::now() + rest_of_report, [] { return false; });
     std::vector<Json> rows;
     for (const auto& [region, error] : connection.errors()) {
         if (line.json) {

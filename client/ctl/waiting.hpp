@@ -20,6 +20,21 @@ inline bool wait_for_server(client::Connection& connection, const std::stop_toke
     return false;
 }
 
+/// Waits until the first of what the server tells at once has come, and then for the rest of it. Where
+/// nothing comes in time it says what is `missing`, and why that may be.
+template <class Arrived>
+bool wait_for_report(client::Connection& connection, const std::stop_token& stop,
+                     client::Clock::time_point end, const Arrived& arrived, const std::string& missing)
+{
+    if (!wait_until(connection, stop, end, arrived)) {
+        complain(no_news_sentence(missing, connection));
+        return false;
+    }
+    constexpr std::chrono::milliseconds rest{100};
+    wait_until(connection, stop, client::Clock::now() + rest, [] { return false; });
+    return true;
+}
+
 /// Warns when frames of the size the server sends do not fit this machine's receive buffers.
 inline void warn_of_large_samples(const client::Connection& connection)
 {

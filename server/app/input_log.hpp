@@ -83,13 +83,4 @@ private:
     LineFile file_;
 };
 
-/// Hash of particles as delivered: XXH3 over every field, in order.
-std::uint64_t content_hash(const ParticleSet& particles);
-
-/// Hash of what colliders have from files; 0 where that is nothing.
-std::uint64_t content_hash(const std::vector<ColliderSettings>& colliders);
-
-/// A 64-bit hash as 16 hexadecimal digits, as in logs and reports.
-std::string hash_text(std::uint64_t hash);
-
 } // namespace slod

@@ -7,6 +7,7 @@
 
 #include "app/settings_json.hpp"
 #include "idl/version.hpp"
+#include "scene/content_hash.hpp"
 #include "sim/plan.hpp"
 
 namespace slod {

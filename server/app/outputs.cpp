@@ -9,6 +9,7 @@
 
 #include "app/picture.hpp"
 #include "app/report.hpp"
+#include "scene/content_hash.hpp"
 
 namespace slod {
 namespace {

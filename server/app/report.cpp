@@ -6,6 +6,7 @@
 #include "app/json_text.hpp"
 #include "app/settings_json.hpp"
 #include "idl/version.hpp"
+#include "scene/content_hash.hpp"
 
 namespace slod {
 namespace {

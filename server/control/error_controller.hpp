@@ -13,10 +13,9 @@ namespace slod {
 /// accurate than asked for costs work in vain. Where the frame rate goes first it may make them larger still.
 ///
 /// Errors come in samples. It waits until enough have been drawn since clusters followed the last turn, or
-/// have had time to where their number is never still, and
-/// turns again only when the target is outside the interval that holds the median with 95 % probability and
-/// further than the band within which it rests: so chance moves nothing for long, and there is no limit
-/// cycle.
+/// have had time to where their number is never still, and turns again only when the target is outside the
+/// interval that holds the median with 95 % probability and further than the band within which it rests: so
+/// chance moves nothing for long, and there is no limit cycle.
 class ErrorController final : public Controller {
 public:
     ErrorController(const ControlSettings& settings, const ControlScope& scope, const Detail& detail);

@@ -1,3 +1,5 @@
+#include "cost_rows.hpp"
+
 #include <gtest/gtest.h>
 
 #include "cost/answer.hpp"
@@ -6,20 +8,6 @@
 
 namespace slod::cost {
 namespace {
-
-Row row(const Setting& setting, double ms, double error)
-{
-    Row made;
-    made.setting = made.in_full = setting;
-    made.ms_median = ms;
-    made.errors.position = error;
-    return made;
-}
-
-Row row(Motion motion, double size, double ms, double error)
-{
-    return row({motion, size}, ms, error);
-}
 
 TEST(CostAnswer, TheFrontHasWhatNothingBeats)
 {

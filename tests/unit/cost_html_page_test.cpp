@@ -1,3 +1,5 @@
+#include "cost_rows.hpp"
+
 #include <cctype>
 #include <vector>
 
@@ -42,15 +44,6 @@ std::string malformed(const std::string& page)
             open.pop_back();
     }
     return open.empty() ? "" : "no end of <" + open.back() + ">";
-}
-
-Row row(const Setting& setting, double ms, double error)
-{
-    Row made;
-    made.setting = made.in_full = setting;
-    made.ms_median = ms;
-    made.errors.position = error;
-    return made;
 }
 
 const Sweep sweep{.rows = {row({}, 100, 0.1), row({Motion::Flow, 16}, 10, 3), row({Motion::Flow, 64}, 20, 3),
