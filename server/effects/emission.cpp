@@ -33,7 +33,7 @@ Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, d
       sinks_(sinks), cohorts_(emitters_.size())
 {}
 
-Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, bool kicked,
+Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, double closing_kick,
                                   std::uint64_t room)
 {
     Births births;
@@ -47,7 +47,7 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
                 return sinks_->meet(born.from, born.particle.position);
             });
         births.born += newborns_.size();
-        const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, kicked);
+        const std::size_t joined = join_cohort(tree, cohorts_[emitter], context, closing_kick);
         if (joined < newborns_.size())
             found(tree, emitter, joined, context);
     }
@@ -55,7 +55,8 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
 }
 
 /// Puts the first newborns into the open cluster as far as it has room; returns how many.
-std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context, bool kicked)
+std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context,
+                                  double closing_kick)
 {
     ClusterTable& clusters = context.store.clusters;
     const std::size_t slot = cohort.slot.index;
@@ -70,9 +71,9 @@ std::size_t Emission::join_cohort(SlodTree& tree, ClusterId cohort, const Update
     const Vector3d first_velocity = clusters.velocity[slot];
     for (std::size_t i = 0; i < joining; ++i) {
         Newborn& born = newborns_[i];
-        // The closing kick will act for half a step; the newborn was there for its age.
-        if (kicked)
-            born.particle.velocity += (born.age - 0.5 * context.step) * clusters.acceleration[slot];
+        // The closing kick will act on it, too; the newborn was there for its age.
+        if (closing_kick > 0)
+            born.particle.velocity += (born.age - closing_kick) * clusters.acceleration[slot];
         insert_member(context.store, cohort.slot, born.particle, context.frame);
     }
     if (by_first_particle(tree, clusters, slot))

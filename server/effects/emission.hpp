@@ -37,9 +37,9 @@ public:
     };
 
     /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused, and
-    /// those left out that are in a sink at its end. With `kicked`, particles that join a cohort get its
-    /// acceleration for their own time only.
-    Births update(SlodTree& tree, const UpdateContext& context, bool kicked, std::uint64_t room);
+    /// those left out that are in a sink at its end. Where a kick of the length `closing_kick` follows,
+    /// particles that join a cohort get its acceleration for their own time only.
+    Births update(SlodTree& tree, const UpdateContext& context, double closing_kick, std::uint64_t room);
 
     const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
 
@@ -50,7 +50,8 @@ public:
     std::vector<std::uint64_t> counts_before(double time) const;
 
 private:
-    std::size_t join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context, bool kicked);
+    std::size_t join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context,
+                            double closing_kick);
     void found(SlodTree& tree, std::size_t emitter, std::size_t first, const UpdateContext& context);
 
     std::vector<Emitter> emitters_;

@@ -4,11 +4,24 @@
 #include <atomic>
 
 #include "core/parallel.hpp"
+#include "sim/quarantine.hpp"
 
 namespace slod {
 namespace {
 
 constexpr std::size_t block = 1024;
+
+/// Whether body(first, last) is true of all blocks; it is called for each of them.
+template <class Body>
+bool holds_in_blocks(std::size_t count, const Body& body)
+{
+    std::atomic<bool> holds{true};
+    for_each_block(count, block, [&](std::size_t first, std::size_t last) {
+        if (!body(first, last))
+            holds = false;
+    });
+    return holds;
+}
 
 } // namespace
 
@@ -22,24 +35,33 @@ void kick_cluster(ClusterTable& clusters, std::size_t slot, double step)
     kick(clusters.map[slot], step, tide);
 }
 
-void kick_clusters(ClusterTable& clusters, double step)
+bool kick_clusters(ClusterTable& clusters, double step)
 {
-    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
-        for (std::size_t slot = first; slot < last; ++slot)
-            if (clusters.alive(slot))
-                kick_cluster(clusters, slot, step);
+    return holds_in_blocks(clusters.slot_count(), [&](std::size_t first, std::size_t last) {
+        bool sound = true;
+        for (std::size_t slot = first; slot < last; ++slot) {
+            if (!clusters.alive(slot))
+                continue;
+            kick_cluster(clusters, slot, step);
+            sound &= in_range(clusters.velocity[slot], largest_number) &&
+                     (!clusters.columns.map || is_finite(clusters.map[slot]));
+        }
+        return sound;
     });
 }
 
-void propagate_clusters(ClusterTable& clusters, const Propagator& step)
+bool propagate_clusters(ClusterTable& clusters, const Propagator& step, double range)
 {
     const bool centres_only =
         clusters.free_slots.empty() && !clusters.columns.withheld && !clusters.columns.map;
-    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+    return holds_in_blocks(clusters.slot_count(), [&](std::size_t first, std::size_t last) {
+        bool sound = true;
         if (centres_only) { // without a branch in the loop, as fast as a loop over particles
-            for (std::size_t slot = first; slot < last; ++slot)
+            for (std::size_t slot = first; slot < last; ++slot) {
                 step.apply(clusters.position[slot], clusters.velocity[slot]);
-            return;
+                sound &= in_range(clusters.position[slot], range);
+            }
+            return sound;
         }
         for (std::size_t slot = first; slot < last; ++slot) {
             if (!clusters.alive(slot))
@@ -49,23 +71,34 @@ void propagate_clusters(ClusterTable& clusters, const Propagator& step)
                 clusters.withheld[slot] += step.decay_minus_1 * clusters.withheld[slot];
             if (clusters.columns.map)
                 propagate(clusters.map[slot], step);
+            sound &= is_sound(clusters, slot, range);
         }
+        return sound;
     });
 }
 
-bool all_finite(const ClusterTable& clusters, std::uint64_t turn, std::uint64_t turns)
+double largest_rate_squared(const ClusterTable& clusters)
 {
-    std::atomic<bool> finite{true};
-    const std::size_t blocks = block_count(clusters.slot_count(), block);
-    const std::size_t first_block = turn % turns;
-    const std::size_t in_turn = first_block < blocks ? (blocks - first_block - 1) / turns + 1 : 0;
-    for_each_task(in_turn, [&](std::size_t i) {
-        const std::size_t first = (first_block + i * turns) * block;
-        for (std::size_t slot = first; slot < std::min(first + block, clusters.slot_count()); ++slot)
-            if (clusters.alive(slot) && !clusters.position[slot].allFinite())
-                finite = false;
+    std::atomic<double> largest{0};
+    for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
+        double most = 0;
+        for (std::size_t slot = first; slot < last; ++slot)
+            if (clusters.alive(slot))
+                most = std::max(most, clusters.rate_squared(slot));
+        for (double known = largest; known < most && !largest.compare_exchange_weak(known, most);)
+            ;
     });
-    return finite;
+    return largest;
+}
+
+bool all_sound(const ClusterTable& clusters, double range)
+{
+    return holds_in_blocks(clusters.slot_count(), [&](std::size_t first, std::size_t last) {
+        bool sound = true;
+        for (std::size_t slot = first; slot < last; ++slot)
+            sound = sound && (!clusters.alive(slot) || is_sound(clusters, slot, range));
+        return sound;
+    });
 }
 
 } // namespace slod

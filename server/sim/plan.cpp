@@ -80,6 +80,8 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::Moments, settings.gravity.has_value() || plan.clocked);
     runs(Phase::Forces, kicked);
     runs(Phase::CloseKick, kicked);
+    plan.substeps = kicked && settings.time.max_substeps > 1;
+    plan.tides = kicked && (plan.clocked || plan.substeps);
     runs(Phase::Snapshot, true);
     const bool drags = settings.linear_drag || plan.air;
     const bool rigid = plan.map == MapKind::Identity && !plan.unclustered;
@@ -112,7 +114,7 @@ void list_columns(Plan& plan)
     cluster(plan.withholding, "velocity withheld", sizeof(Vector3d));
     cluster(plan.has(Phase::Forces), "acceleration and variance", sizeof(Vector3d) + 2 * sizeof(double));
     cluster(plan.clocked && !plan.has(Phase::Forces), "variance", sizeof(double));
-    cluster(plan.clocked && plan.has(Phase::Forces), "tidal tensor", sizeof(Symmetric3));
+    cluster(plan.tides, "tidal tensor", sizeof(Symmetric3));
     cluster(plan.turning, "curl of the acceleration", sizeof(Vector3d));
     cluster(plan.field_forces, "fields", sizeof(FieldValue));
     cluster(plan.local_air, "winds", sizeof(FieldValue));

@@ -36,6 +36,8 @@ struct Plan {
     MapKind map = MapKind::Identity;
     bool map_is_exact = false; ///< maps never age: only size, breadth and regions re-form a cluster
     bool clocked = false;      ///< maps age, and pools are re-formed by the dynamical clock
+    bool substeps = false;     ///< frames are cut into sub-steps where tides ask for it
+    bool tides = false;        ///< how fast forces change with the place is evaluated with them
     bool unclustered = false;  ///< one particle per cluster everywhere
     bool merging = false;      ///< clusters that move alike merge from the start: SlodTree::merging
     bool finite_lives = false; ///< particles expire

@@ -146,6 +146,23 @@ void check_winds(const SimulationSettings& settings, Problems& found)
     AirFields::for_each([&]<class F> { check(F::name, !elements(settings.fields.of<F>()).empty()); });
 }
 
+/// Sub-steps are those of kicks; flights to a collider and through air that differs are of a whole frame.
+void check_substeps(const SimulationSettings& settings, Problems& found)
+{
+    if (settings.time.max_substeps == 1)
+        return;
+    const auto check = [&](std::string_view name, bool there) {
+        if (there && settings.effects.runs(name))
+            found.push_back(
+                "time.max_substeps = " + std::to_string(settings.time.max_substeps) + " does not go with " +
+                std::string(name) +
+                ", which acts over whole frames; use 1 and a smaller time.step, or leave that out.");
+    };
+    check("collider", !settings.colliders.empty());
+    check("quadratic_drag", settings.quadratic_drag.has_value());
+    AirFields::for_each([&]<class F> { check(F::name, !elements(settings.fields.of<F>()).empty()); });
+}
+
 void check_lives(const MotionSettings& motion, Problems& found)
 {
     const auto check = [&](const std::string& key, std::uint32_t frames) {
@@ -249,6 +266,7 @@ Problems problems(const SimulationSettings& settings)
     check_lives(settings.motion, found);
     check_rigid_rules(settings.motion, found);
     check_winds(settings, found);
+    check_substeps(settings, found);
     check_switches(settings, found);
     return found;
 }

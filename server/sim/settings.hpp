@@ -39,7 +39,9 @@ struct Units {
 };
 
 struct TimeSettings {
-    double step = 1.0 / 60; ///< one frame's simulated time
+    double step = 1.0 / 60;         ///< one frame's simulated time
+    std::uint32_t max_substeps = 1; ///< of a frame; 1: never more
+    double substep_angle = 1;       ///< rad; no sub-step is longer than this over sqrt(|T|max)
 
     friend bool operator==(const TimeSettings&, const TimeSettings&) = default;
 };
@@ -158,6 +160,18 @@ template <class Visitor>
 void for_each_field(TimeSettings& time, Visitor&& visit)
 {
     visit(Field{"step", "time", "Simulated time of one frame.", 1e-12, 1e12}, time.step);
+    visit(Field{"max_substeps", "",
+                "Steps that a frame is cut into where forces change fast, at most. Frames that would need "
+                "more are "
+                "counted as under_resolved.",
+                1, 1e6},
+          time.max_substeps);
+    visit(Field{"substep_angle", "rad",
+                "How far the fastest oscillation about a particle gets in a sub-step, at most: its length "
+                "times the "
+                "square root of the largest tide. Leapfrog is unstable from 2 on.",
+                1e-6, 2},
+          time.substep_angle);
 }
 
 template <class Visitor>

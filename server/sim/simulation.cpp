@@ -23,8 +23,16 @@ const Snapshot& Simulation::step(const Request& request)
     s.snapshot.profile = {};
     s.snapshot.counts = {};
     s.snapshot.effects = {};
+    s.snapshot.quarantined = {};
     //                                                      reads                   writes
-    s.run(Phase::Commands, [&] { s.open(request); });    // slabs, regions       -> pool, tree, tides, frame
+    s.run(Phase::Commands, [&] { s.open(request); }); // slabs, regions       -> pool, tree, tides, frame
+    while (s.begin_substep()) {
+        s.run(Phase::OpenKick, [&] { s.kick(); }); // as below, for each sub-step but the last
+        s.run(Phase::Propagate, [&] { s.propagate(); });
+        s.run(Phase::Moments, [&] { s.measure_moments(); });
+        s.run(Phase::Forces, [&] { s.evaluate_forces(); });
+        s.run(Phase::CloseKick, [&] { s.kick(); });
+    }
     s.run(Phase::OpenKick, [&] { s.kick(); });           // accelerations, tides -> velocities, maps
     s.run(Phase::Propagate, [&] { s.propagate(); });     // velocities, maps     -> positions, maps
     s.run(Phase::Expire, [&] { s.expire(); });           // ages, sinks          -> clusters, members

@@ -13,6 +13,7 @@
 #include "effects/fields/field_set.hpp"
 #include "effects/switches.hpp"
 #include "sim/phase.hpp"
+#include "sim/quarantine.hpp"
 #include "tree/slod_tree.hpp"
 
 namespace slod {
@@ -32,7 +33,10 @@ struct FrameCounts : UpdateCounts, CollisionCounts {
     std::uint64_t walks = 0;        ///< of the tree, each for a group of clusters
     std::uint64_t nodes_tested = 0; ///< in those walks, whether they may act as one body
     std::uint64_t error_pairs = 0;  ///< of a particle and a member whose error is measured
-    FieldCounts fields{};           ///< by effect of place, in the order of their list; 0 for absent ones
+    std::uint64_t quarantined = 0;  ///< particles that left the range of numbers, of those that died
+    std::uint64_t substeps = 0;
+    std::uint64_t under_resolved = 0; ///< 1: tides asked for more sub-steps than the scene allows
+    FieldCounts fields{};             ///< by effect of place, in the order of their list; 0 for absent ones
 };
 
 /// A count of events in a frame, by name.
@@ -43,7 +47,7 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 28> event_counts{{
+inline constexpr std::array<EventCount, 31> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -72,6 +76,9 @@ inline constexpr std::array<EventCount, 28> event_counts{{
     {"walks", &FrameCounts::walks},
     {"nodes_tested", &FrameCounts::nodes_tested},
     {"error_pairs", &FrameCounts::error_pairs},
+    {"quarantined", &FrameCounts::quarantined},
+    {"substeps", &FrameCounts::substeps},
+    {"under_resolved", &FrameCounts::under_resolved},
 }};
 
 /// Calls visit(name, count) for all of them; of each effect of place, by its name, for the clusters that it
@@ -92,10 +99,8 @@ inline void add_events(FrameCounts& sum, const FrameCounts& frame)
 {
     for (const EventCount& event : event_counts)
         sum.*event.count += frame.*event.count;
-    for (std::size_t row = 0; row < sum.fields.size(); ++row) {
-        sum.fields[row].calls += frame.fields[row].calls;
-        sum.fields[row].clusters += frame.fields[row].clusters;
-    }
+    for (std::size_t row = 0; row < sum.fields.size(); ++row)
+        sum.fields[row] += frame.fields[row];
 }
 
 /// What an effect did in a frame.
@@ -144,9 +149,10 @@ struct Snapshot {
     /// Potential energy of all particles in the effects of place that have one, where conserved quantities
     /// were asked for.
     double field_energy = 0;
-    Losses drained;      ///< what sinks took in this frame
-    Losses killed;       ///< what colliders did, with the velocities of the impacts
-    StepProfile profile; ///< of this frame
+    Losses drained;          ///< what sinks took in this frame
+    Losses killed;           ///< what colliders did, with the velocities of the impacts
+    Quarantined quarantined; ///< what left the range of numbers
+    StepProfile profile;     ///< of this frame
     std::array<EffectWork, effect_count> effects{}; ///< by effect_row()
     std::vector<RegionLoad> regions;                ///< in order of precedence, the background last
     Detail detail;                                  ///< that the frame was run at

@@ -18,7 +18,7 @@ const simd::KernelTable* kernels_named(std::string_view isa)
 ClusterTable::Columns cluster_columns(const Plan& plan)
 {
     return {.map = plan.map == MapKind::Full,
-            .tide = plan.clocked && plan.has(Phase::Forces),
+            .tide = plan.tides,
             .acceleration = plan.has(Phase::Forces),
             .counting_moments = plan.counting_moments,
             .expiry = plan.finite_lives,
@@ -96,7 +96,8 @@ Simulation::State::State(const SimulationSettings& wanted, const ParticleSet& in
       kernels(kernels_named(options.isa)), tick(options.tick),
       gravitational_constant(settings.units.gravitational_constant()),
       fields(settings.uniform_gravity, settings.linear_drag, settings.uniform_wind),
-      propagator(fields.over(settings.time.step)), frame(start.frame),
+      propagator(fields.over(settings.time.step)), range(scene_range(settings)), substep(settings.time.step),
+      frame(start.frame),
       store(cluster_columns(plan), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, settings.time.step)),
       tree(std::move(start.tree)), reforming(settings.motion, context()),

@@ -22,6 +22,33 @@ void Simulation::State::open(const Request& request)
     if (std::exchange(forces_stale, false))
         look_around();
     ++frame;
+    time_left = settings.time.step;
+    substeps_left = settings.time.max_substeps;
+}
+
+/// After the tides as they are now: equal steps, as far as tides stay so. A close passage is over long before
+/// the frame is, so half of the sub-steps may be as short as they need be; what is left then has to do for
+/// the rest.
+bool Simulation::State::begin_substep()
+{
+    double rate = 0;
+    if (plan.tides)
+        timed(snapshot.profile[Phase::OpenKick],
+              [&] { rate = std::sqrt(largest_rate_squared(store.clusters)); });
+    const double angle = settings.time.substep_angle;
+    double parts = std::max(std::ceil(time_left * rate / angle), 1.0);
+    const bool spare = 2 * substeps_left > settings.time.max_substeps + 1 && std::isfinite(parts);
+    if (!spare && !(parts <= double(substeps_left))) {
+        snapshot.counts.under_resolved = 1;
+        parts = double(substeps_left);
+    }
+    ++snapshot.counts.substeps;
+    --substeps_left;
+    substep = time_left / parts;
+    time_left = parts > 1 ? time_left - substep : 0;
+    if (plan.substeps)
+        propagator = fields.over(substep);
+    return parts > 1;
 }
 
 void Simulation::State::look_around()
@@ -72,33 +99,35 @@ void Simulation::State::make_room()
 
 void Simulation::State::kick()
 {
-    kick_clusters(store.clusters, 0.5 * settings.time.step);
+    if (!kick_clusters(store.clusters, 0.5 * substep))
+        take_out_unsound(frame - 1);
 }
 
 /// Newborn clusters are kicked for as long as they have existed, the others for half a step.
 void Simulation::State::close_kick()
 {
-    kick_clusters(store.clusters, 0.5 * settings.time.step);
+    if (!kick_clusters(store.clusters, 0.5 * substep))
+        take_out_unsound(frame);
     for (const Emission::NewCluster& born : emission.new_clusters()) {
         const std::size_t slot = born.id.slot.index;
         if (store.clusters.alive(slot) && store.clusters.id(slot) == born.id) // else re-formed already
-            kick_cluster(store.clusters, slot, born.age - 0.5 * settings.time.step);
+            kick_cluster(store.clusters, slot, born.age - 0.5 * substep);
     }
 }
 
-/// Regrouping looks at all that moved, re-forming only at what is due. Without an update nobody else looks at
-/// a place either, and a sixteenth in each frame is enough: to look at all would take a tenth of the frame.
-bool Simulation::State::places_are_finite() const
+void Simulation::State::take_out_unsound(std::uint64_t counted)
 {
-    constexpr std::size_t many = 10'000;
-    if (!plan.has(Phase::Update))
-        return all_finite(store.clusters, frame, store.clusters.slot_count() > many ? 16 : 1);
-    return !plan.clocked || all_finite(store.clusters);
+    const Quarantined taken = quarantine(tree, {store, counted, settings.time.step}, range);
+    snapshot.quarantined += taken;
+    snapshot.counts.quarantined += taken.particles;
+    snapshot.counts.died += taken.particles;
+    particle_count -= taken.particles;
 }
 
 void Simulation::State::propagate()
 {
-    if (member_kicks) {
+    const bool first = snapshot.counts.substeps == 1;
+    if (member_kicks && first) {
         double ms = 0;
         timed(ms, [&] { member_kicks->update(tree, {store, frame - 1, settings.time.step}); });
         snapshot.counts.kicked = member_kicks->changed();
@@ -106,7 +135,7 @@ void Simulation::State::propagate()
             if (plan.effects[effect_row(kick)].active)
                 work_of(kick) = {.particles = snapshot.counts.kicked, .ms = ms};
     }
-    if (draining)
+    if (draining && first)
         draining->remember(context());
     if (air && !plan.local_air)
         turn_wind();
@@ -114,20 +143,24 @@ void Simulation::State::propagate()
         air->ask(store.clusters, double(frame - 1) * settings.time.step);
     if (collisions)
         timed(work_of("collider").ms, [&] { collisions->fly_members(context()); });
-    if (plan.local_air)
+    bool sound;
+    if (plan.local_air) {
         air->propagate(store.clusters);
-    else
-        propagate_clusters(store.clusters, propagator);
+        sound = all_sound(store.clusters, range);
+    } else {
+        sound = propagate_clusters(store.clusters, propagator, range);
+    }
     if (air)
         note(air->take_counts(), air->take_times_ns(), ForceFields::size);
-    if (!places_are_finite())
-        refuse_unbounded(frame);
     if (collisions) {
-        timed(work_of("collider").ms, [&] {
-            snapshot.counts.died = collisions->put_back(tree, context(), snapshot.counts, snapshot.killed);
-        });
-        particle_count -= snapshot.counts.died;
+        std::uint64_t killed = 0;
+        timed(work_of("collider").ms,
+              [&] { killed = collisions->put_back(tree, context(), snapshot.counts, snapshot.killed); });
+        snapshot.counts.died += killed;
+        particle_count -= killed;
     }
+    if (!sound)
+        take_out_unsound(frame - 1);
 }
 
 void Simulation::State::turn_wind()
@@ -164,8 +197,9 @@ void Simulation::State::emit()
     const std::uint64_t room =
         settings.limits.max_particles - std::min(settings.limits.max_particles, particle_count);
     Emission::Births births;
-    timed(work_of("emitter").ms,
-          [&] { births = emission.update(tree, context(), plan.has(Phase::CloseKick), room); });
+    timed(work_of("emitter").ms, [&] {
+        births = emission.update(tree, context(), plan.has(Phase::CloseKick) ? 0.5 * substep : 0.0, room);
+    });
     snapshot.counts.born = births.born;
     snapshot.counts.births_refused = births.refused;
     particle_count += snapshot.counts.born;
@@ -210,11 +244,11 @@ void Simulation::State::evaluate_gravity()
         counts = slod::evaluate_gravity(view, *kernels, gravity, gravitational_constant, force_lists,
                                         store.clusters);
     });
-    snapshot.counts.interactions = counts.interactions;
-    snapshot.counts.far_nodes = counts.far_nodes;
+    snapshot.counts.interactions += counts.interactions;
+    snapshot.counts.far_nodes += counts.far_nodes;
     snapshot.unanswered_force = counts.unanswered;
-    snapshot.counts.walks = counts.groups;
-    snapshot.counts.nodes_tested = counts.nodes_tested;
+    snapshot.counts.walks += counts.groups;
+    snapshot.counts.nodes_tested += counts.nodes_tested;
 }
 
 void Simulation::State::note_effects()

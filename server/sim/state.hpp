@@ -46,10 +46,13 @@ struct Simulation::State {
     void form_clusters(const ParticleSet& particles);
     void make_room();   ///< Provides memory for the frame, so that no other phase but emit has to take any
     void look_around(); ///< Moments and forces of the clusters as they are, outside their phases
+    /// Chooses the length of the next sub-step; false: it is the frame's last one.
+    bool begin_substep();
     void kick();
     void close_kick();
     void propagate();
-    bool places_are_finite() const;
+    /// Takes out what has left the range of numbers, of members counted at the end of that frame.
+    void take_out_unsound(std::uint64_t counted);
     void turn_wind(); ///< Takes this frame's wind, where that is the same everywhere
     void expire();
     void drain();
@@ -88,17 +91,22 @@ struct Simulation::State {
             timed(snapshot.profile[phase], work);
     }
 
-    double time() const { return double(frame) * settings.time.step; } ///< at the end of the frame
+    double time() const ///< at the end of the frame, or of the sub-step within it
+    {
+        return double(frame) * settings.time.step - time_left;
+    }
     EffectWork& work_of(std::string_view effect) { return snapshot.effects[effect_row(effect)]; }
 
     /// Takes what a list of effects of place did, whose first is the `first` of all.
     template <class Counts, class Times>
     void note(const Counts& counts, const Times& times_ns, std::size_t first)
     {
-        std::copy(counts.begin(), counts.end(), snapshot.counts.fields.begin() + std::ptrdiff_t(first));
-        for (std::size_t i = 0; i < counts.size(); ++i)
-            snapshot.effects[first_field_effect + first + i] = {.clusters = counts[i].clusters,
-                                                                .ms = double(times_ns[i]) * 1e-6};
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            snapshot.counts.fields[first + i] += counts[i];
+            EffectWork& work = snapshot.effects[first_field_effect + first + i];
+            work.clusters += counts[i].clusters;
+            work.ms += double(times_ns[i]) * 1e-6;
+        }
     }
     void note_effects(); ///< what the others did
 
@@ -113,7 +121,11 @@ struct Simulation::State {
     GravitySettings gravity; ///< at the tree's detail, if the scene has gravity
     double gravitational_constant;
     UniformFields fields;
-    Propagator propagator;   ///< of one frame
+    Propagator propagator; ///< of one sub-step
+    double range;          ///< of places: scene_range()
+    double substep;        ///< time of one; of the frame, where that is not cut
+    double time_left = 0;  ///< of the frame, after the present sub-step
+    std::uint32_t substeps_left = 1;
     std::uint64_t frame = 0; ///< frames completed, or being completed within a step
 
     ClusterStore store;

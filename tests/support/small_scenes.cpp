@@ -244,6 +244,18 @@ SmallScene attracted_sink()
     return scene;
 }
 
+/// Clusters of particles that attract each other with hardly any softening, in more steps a frame than they
+/// are allowed, and one particle that leaves for good.
+SmallScene encounters()
+{
+    SmallScene scene = clouds("encounters", Motion::Flow, 4, 200);
+    scene.settings.kinds.front().softening = 1e-3;
+    scene.settings.time.max_substeps = 8;
+    scene.settings.time.substep_angle = 0.003;
+    scene.initial.front().velocity = {1e29, 0, 0};
+    return scene;
+}
+
 } // namespace
 
 void add_cloud(ParticleSet& particles, const Cloud& cloud, std::uint64_t seed)
@@ -328,6 +340,7 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(kicked());
     scenes.push_back(sinks());
     scenes.push_back(attracted_sink());
+    scenes.push_back(encounters());
     return scenes;
 }
 

@@ -43,7 +43,8 @@ void PrintTo(const SmallScene& scene, std::ostream* out);
 /// One scene for every road through the step: motion flow, stream and rigid in self-gravity, unclustered,
 /// in double, by walks of the tree, a fountain, one with regions of interest, one of two kinds falling
 /// onto attracting clouds, three among colliders and one among meshes, two in accelerations of place, three
-/// in winds, one that is kicked, and two with sinks.
+/// in winds, one that is kicked, two with sinks, and one
+/// whose frames are cut into steps, and which a particle leaves.
 std::vector<SmallScene> small_scenes();
 
 /// The one of that name.

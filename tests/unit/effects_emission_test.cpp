@@ -33,7 +33,7 @@ public:
             if (clusters.alive(slot))
                 propagator.apply(clusters.position[slot], clusters.velocity[slot]);
         const std::uint64_t room = most > born ? most - born : 0;
-        const Emission::Births births = emission.update(world.tree, world.context(frame), false, room);
+        const Emission::Births births = emission.update(world.tree, world.context(frame), 0, room);
         born += births.born;
         refused += births.refused;
     }
@@ -190,8 +190,9 @@ TEST(Emission, AKickedNewbornThatJoinsGetsTheRestOfItsOwnTime)
     kicked.world.store.clusters.acceleration[0] = pull;
     std::vector<Newborn> born;
     Fountain::emitters_of({jet(5)}).front().emit(2, step, {}, unlimited, born);
-    kicked.emission.update(kicked.world.tree, kicked.world.context(2), true, unlimited);
-    free.emission.update(free.world.tree, free.world.context(2), false, unlimited);
+    kicked.emission.update(kicked.world.tree, kicked.world.context(2), 0.5 * kicked.world.context(2).step,
+                           unlimited);
+    free.emission.update(free.world.tree, free.world.context(2), 0, unlimited);
     const ParticleSet with = test::members(kicked.world.store, 2),
                       without = test::members(free.world.store, 2);
     ASSERT_EQ(with.size(), 10U);

@@ -18,6 +18,12 @@ struct FieldCount {
     std::uint64_t calls = 0;    ///< for a block of clusters
     std::uint64_t clusters = 0; ///< that it was evaluated for, once for each element of its table
 
+    FieldCount& operator+=(const FieldCount& other)
+    {
+        calls += other.calls;
+        clusters += other.clusters;
+        return *this;
+    }
     friend bool operator==(const FieldCount&, const FieldCount&) = default;
 };
 

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "sim/simulation.hpp"
+#include "support/case_rows.hpp"
+#include "support/small_scenes.hpp"
+
+// A particle that is thrown out of the range of numbers, among others.
+namespace slod::test {
+namespace {
+
+constexpr std::uint64_t lost_id = 65;
+
+/// A cloud, and one particle apart from it that flies away; without mass, as a body of mass is felt wherever
+/// it is.
+ParticleSet cloud_and_flyer(double speed)
+{
+    ParticleSet particles;
+    add_cloud(particles, {.count = 64}, 3);
+    particles.push_back({{1e4, 0, 0}, {speed, 0, 0}, lost_id, 0});
+    return particles;
+}
+
+struct Ground {
+    const char* name;
+    Motion motion;
+    double max_cluster_size;
+    bool gravity;
+    double allowed; ///< change of others' places
+};
+
+void PrintTo(const Ground& ground, std::ostream* out)
+{
+    *out << ground.name;
+}
+
+class AmongOthers : public testing::TestWithParam<Ground> {
+protected:
+    static SimulationSettings settings()
+    {
+        SimulationSettings settings = quiet_settings();
+        settings.background.max_cluster_size = GetParam().max_cluster_size;
+        settings.background.max_breadth = 20; // so that the flyer is alone in its cluster
+        settings.motion.motion = GetParam().motion;
+        settings.uniform_gravity = UniformGravitySettings{{0, 0, -1}};
+        if (GetParam().gravity)
+            settings.gravity.emplace();
+        return settings;
+    }
+};
+
+// The flyer is beyond the largest coordinate after a ninth of 64 frames; the one that it is compared with
+// never is.
+TEST_P(AmongOthers, N01_AParticleOutOfRangeIsTakenOutByNameAndNobodyElseIsTouched)
+{
+    constexpr int frames = 100;
+    Simulation with(settings(), cloud_and_flyer(9e29), {}), without(settings(), cloud_and_flyer(1e6), {});
+    Quarantined taken;
+    std::uint64_t died = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+        const Snapshot& now = with.step({});
+        without.step({});
+        taken += now.quarantined;
+        died += now.counts.died;
+        ASSERT_EQ(with.problems(), Problems{}) << "frame " << frame;
+    }
+    expect_within("particles taken out", double(taken.particles), 1, 1);
+    EXPECT_EQ(taken.ids, std::vector<std::uint64_t>{lost_id});
+    EXPECT_EQ(died, 1U);
+    const ParticleSet here = with.particles(), there = without.particles();
+    ASSERT_EQ(here.size(), 64U);
+    ASSERT_EQ(there.size(), 65U);
+    double largest = 0;
+    for (std::size_t i = 0; i < here.size(); ++i)
+        largest = std::max(largest, (here[i].position - there[i].position).norm());
+    if (std::isfinite(GetParam().allowed))
+        expect_at_most("largest change of another's place", largest, GetParam().allowed);
+}
+
+// Attracting bodies see where the flyer is in the order of their sums, in float: 6e-8 of a pull of 1, over
+// two units of time. Clusters of such bodies are formed of other members then.
+constexpr double any = std::numeric_limits<double>::infinity();
+INSTANTIATE_TEST_SUITE_P(Scenes, AmongOthers,
+                         testing::Values(Ground{"alone", Motion::Flow, 1, false, 0},
+                                         Ground{"clustered", Motion::Flow, 8, false, 0},
+                                         Ground{"rigid", Motion::Rigid, 8, false, 0},
+                                         Ground{"attracting", Motion::Flow, 1, true, 1e-6},
+                                         Ground{"attracting_clusters", Motion::Flow, 8, true, any},
+                                         Ground{"attracting_rigid_clusters", Motion::Rigid, 8, true, any}),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+// A field that is infinite where a particle is, within one frame.
+TEST(Quarantine, N01_TakesAParticleThatAFieldThrowsOut)
+{
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_cluster_size = 1;
+    settings.fields.of<Spring>().push_back({.anchor = {0, 0, 0}, .stiffness = 1e30});
+    ParticleSet particles = {{{0, 0, 0}, {0, 0, 0}, 1, 1}, {{1e20, 0, 0}, {0, 0, 0}, 2, 1}};
+    Simulation simulation(settings, particles, {});
+    const Snapshot& now = simulation.step({});
+    expect_within("particles taken out", double(now.quarantined.particles), 1, 1);
+    EXPECT_EQ(now.quarantined.ids, std::vector<std::uint64_t>{2});
+    EXPECT_EQ(simulation.particles().front().position, Vector3d(0, 0, 0));
+}
+
+} // namespace
+} // namespace slod::test
