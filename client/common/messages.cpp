@@ -40,6 +40,7 @@ void assign(ServerInfo& to, const wire::ServerState& from)
     to.real_time_factor = from.real_time_factor;
     to.particles = from.particles;
     to.regions = from.regions;
+    to.alarms = from.alarms;
     to.max_sample_bytes = from.max_sample_bytes;
     to.length_m = from.units.length_m;
     to.mass_kg = from.units.mass_kg;

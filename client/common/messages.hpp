@@ -22,6 +22,7 @@ struct ServerInfo {
     double real_time_factor = 0;
     std::uint64_t particles = 0;
     std::uint32_t regions = 0;
+    std::uint32_t alarms = 0;
     std::uint64_t max_sample_bytes = 0;
     double length_m = 1, mass_kg = 1, time_s = 1;
     double time_step = 0;

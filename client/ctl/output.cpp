@@ -104,6 +104,7 @@ Json json_of(const client::ServerInfo& server)
         {"real_time_factor", server.real_time_factor},
         {"particles", server.particles},
         {"regions", server.regions},
+        {"alarms", server.alarms},
         {"time_step", server.time_step},
         {"units", {{"length_m", server.length_m}, {"mass_kg", server.mass_kg}, {"time_s", server.time_s}}},
         {"version", server.version},

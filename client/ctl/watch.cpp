@@ -23,6 +23,8 @@ Json update_of(const client::Connection& connection, bool with_clusters)
         update["frame_rate_hz"] = server.frame_rate_hz;
         update["real_time_factor"] = server.real_time_factor;
         update["particles"] = server.particles;
+        if (server.alarms > 0)
+            update["alarms"] = server.alarms;
     }
     if (const client::ServerStats* stats = connection.stats()) {
         update["work_ms"] = stats->work_ms;

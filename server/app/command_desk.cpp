@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/scene_check.hpp"
 #include "scene/value_text.hpp"
 
 namespace slod {
@@ -58,7 +59,7 @@ bool says_where(const Request& request)
 
 bool of_loop(const Assignment& assignment)
 {
-    constexpr std::array tables{"server.", "control.", "meter."};
+    constexpr std::array tables{"server.", "control.", "meter.", "alarms."};
     return std::any_of(tables.begin(), tables.end(),
                        [&](const char* table) { return assignment.key.starts_with(table); });
 }
@@ -212,6 +213,8 @@ Answer CommandDesk::set_loop(const Request& request)
     LoopSettings wanted = loop_;
     Problems found = assign_fields(wanted, request.settings);
     for (const std::string& problem : problems(wanted))
+        found.push_back(problem);
+    for (const std::string& problem : problems(wanted.alarms, editor_.scene()))
         found.push_back(problem);
     if (wanted.server.threads != loop_.server.threads || wanted.server.isa != loop_.server.isa)
         found.push_back("server has nothing but frame_rate that can change while the scene runs; start the "

@@ -1,6 +1,7 @@
 #include "app/publish_slot.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -16,6 +17,8 @@ void copy_numbers(const Snapshot& from, Snapshot& to, bool waits)
     to.counts = from.counts;
     if (!waits || is_measured(from.conserved))
         to.conserved = from.conserved;
+    if (!waits || std::isfinite(from.potential_energy))
+        to.potential_energy = from.potential_energy;
     to.profile = from.profile;
     to.regions = from.regions;
     to.detail = from.detail;

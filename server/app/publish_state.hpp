@@ -21,6 +21,7 @@ public:
 
     void set_paused(bool paused) { message_.paused = paused; }
     void set_regions(std::size_t count) { message_.regions = std::uint32_t(count); }
+    void set_alarms(std::size_t count) { message_.alarms = std::uint32_t(count); }
 
     /// Takes over the newest frame.
     void set_frame(const FrameStamp& stamp, std::uint64_t particles, const LoopStats& loop);

@@ -1,6 +1,6 @@
 #include "app/publish_stats.hpp"
 
-#include <limits>
+#include <cmath>
 #include <string_view>
 
 #include "app/publish_fields.hpp"
@@ -9,13 +9,13 @@ namespace slod {
 
 namespace {
 
-slod_v1_ConservedQuantities conserved_message(const ConservedQuantities& quantities)
+slod_v1_ConservedQuantities conserved_message(const ConservedQuantities& quantities, double potential_energy)
 {
     return {.mass = quantities.mass,
             .momentum = message_of(quantities.momentum),
             .angular_momentum = message_of(quantities.angular_momentum),
             .kinetic_energy = quantities.kinetic_energy,
-            .potential_energy = std::numeric_limits<double>::quiet_NaN()};
+            .potential_energy = potential_energy};
 }
 
 ConservedQuantities difference(const ConservedQuantities& now, const ConservedQuantities& before)
@@ -85,15 +85,21 @@ void StatsEncoder::encode_counts(const FrameCounts& counts)
     wire::lend(message_.counts, counts_);
 }
 
-void StatsEncoder::set_conserved(const ConservedQuantities& now)
+void StatsEncoder::set_conserved(const ConservedQuantities& now, double potential_energy)
 {
     if (!is_measured(now))
         return;
     message_.conserved_measured = true;
     if (!first_conserved_)
         first_conserved_ = now;
-    message_.conserved = conserved_message(now);
-    message_.drift = conserved_message(difference(now, *first_conserved_));
+    if (std::isfinite(potential_energy)) {
+        potential_energy_ = potential_energy;
+        if (!first_potential_energy_)
+            first_potential_energy_ = potential_energy;
+    }
+    message_.conserved = conserved_message(now, potential_energy_);
+    message_.drift = conserved_message(difference(now, *first_conserved_),
+                                       potential_energy_ - first_potential_energy_.value_or(0));
 }
 
 } // namespace slod

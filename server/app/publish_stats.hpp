@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,8 @@ public:
     explicit StatsEncoder(const wire::Uuid& session);
 
     /// Takes over conserved quantities, if they were measured: they hold until the next time. Of a frame that
-    /// is not encoded.
-    void set_conserved(const ConservedQuantities& now);
+    /// is not encoded. NaN: the potential energy was not.
+    void set_conserved(const ConservedQuantities& now, double potential_energy);
 
     /// The clusters of `snapshot` are not looked at. The message is valid until the next call.
     const wire::Stats& encode(const Snapshot& snapshot, const LoopStats& loop,
@@ -30,6 +31,8 @@ private:
     std::vector<slod_v1_PhaseTime> phases_;
     std::vector<slod_v1_NamedCount> counts_;
     std::optional<ConservedQuantities> first_conserved_;
+    std::optional<double> first_potential_energy_;
+    double potential_energy_ = std::numeric_limits<double>::quiet_NaN();
     wire::Stats message_{};
 };
 

@@ -21,8 +21,8 @@ constexpr std::array written_topics{
     wire::topic<wire::Clusters>().name,      wire::topic<wire::Overview>().name,
     wire::topic<wire::FrameManifest>().name, wire::topic<wire::Stats>().name,
     wire::topic<wire::ErrorEstimate>().name, wire::topic<wire::EffectStats>().name,
-    wire::topic<wire::RoiState>().name,      wire::topic<wire::ServerState>().name,
-    wire::topic<wire::CommandReply>().name};
+    wire::topic<wire::Alarm>().name,         wire::topic<wire::RoiState>().name,
+    wire::topic<wire::ServerState>().name,   wire::topic<wire::CommandReply>().name};
 constexpr std::array read_topics{wire::topic<wire::Command>().name, wire::topic<wire::View>().name};
 
 std::vector<std::string_view> topics_of(const WireSettings& settings)
@@ -60,8 +60,8 @@ PublishedTopics::PublishedTopics(const WireSettings& settings, const Publisher::
       reply_writer_(participant_), manifest_encoder_(session_), manifest_writer_(participant_),
       overview_encoder_(session_), overview_writer_(participant_), stats_rate_(settings.stats_rate),
       stats_encoder_(session_), stats_writer_(participant_), errors_(participant_, session_, outlet_),
-      effects_(participant_, session_, outlet_), state_encoder_(session_, facts, topics_of(settings)),
-      state_writer_(participant_)
+      effects_(participant_, session_, outlet_), alarms_(participant_, session_, outlet_),
+      state_encoder_(session_, facts, topics_of(settings)), state_writer_(participant_)
 {
     spdlog::info("publishing domain={} session={} {}", settings.domain, wire::to_string(session_),
                  wire::configuration_source(profile_of(settings.profile)));
@@ -83,7 +83,7 @@ void PublishedTopics::publish(const OfferedFrame& frame)
         ++outlet_.counters().frames_published;
         outlet_.counters().encode_ms = thread_ms() - begin_ms;
     }
-    stats_encoder_.set_conserved(frame.newest.conserved);
+    stats_encoder_.set_conserved(frame.newest.conserved, frame.newest.potential_energy);
     if (stats_rate_.due(begin) && stats_writer_.matched()) {
         stats_rate_.mark(begin);
         outlet_.send(stats_writer_,
@@ -91,6 +91,7 @@ void PublishedTopics::publish(const OfferedFrame& frame)
     }
     errors_.update(frame.loop.errors, {.frame = frame.newest.frame, .time = frame.newest.time});
     effects_.update(frame.loop.effects);
+    alarms_.update(frame.loop.alarms);
     if (region_counts_rate_.due(begin)) {
         region_counts_rate_.mark(begin);
         regions_.write_counts(frame.newest.regions);
@@ -137,6 +138,7 @@ void PublishedTopics::forget_silent_clients()
 void PublishedTopics::publish_state()
 {
     state_encoder_.set_regions(regions_.count());
+    state_encoder_.set_alarms(alarms_.count());
     const double idle_ms = milliseconds(Clock::now() - newest_completed_);
     outlet_.send(state_writer_, state_encoder_.encode(idle_ms, outlet_.largest_sample()));
 }

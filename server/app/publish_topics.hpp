@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 
+#include "app/publish_alarms.hpp"
 #include "app/publish_effects.hpp"
 #include "app/publish_errors.hpp"
 #include "app/publish_outlet.hpp"
@@ -80,6 +81,7 @@ private:
     wire::Writer<wire::Stats> stats_writer_;
     PublishedErrors errors_;
     PublishedEffects effects_;
+    PublishedAlarms alarms_;
     StateEncoder state_encoder_;
     wire::Writer<wire::ServerState> state_writer_;
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/alarms.hpp"
 #include "app/requests.hpp"
 #include "control/controller.hpp"
 #include "meter/error_window.hpp"
@@ -46,6 +47,7 @@ struct LoopStats {
     ControlReport regulation{};                    ///< at the frame's start
     std::shared_ptr<const ErrorReport> errors{};   ///< the newest; null: they are not measured
     std::shared_ptr<const EffectReport> effects{}; ///< the newest; null: nobody reads it
+    std::shared_ptr<const std::vector<Alarm>> alarms{}; ///< those that there are; null: none
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop

@@ -78,6 +78,19 @@ Json error_json(const ErrorEstimate& error)
             {"rms", error.rms}};
 }
 
+Json alarms_json(const std::vector<Alarm>& alarms)
+{
+    Json list = Json::array();
+    for (const Alarm& alarm : alarms)
+        list.push_back({{"name", alarm.name},
+                        {"severity", names(alarm.severity)[std::size_t(alarm.severity)]},
+                        {"first_frame", alarm.first_frame},
+                        {"last_frame", alarm.last_frame},
+                        {"occurrences", alarm.occurrences},
+                        {"text", alarm.text}});
+    return list;
+}
+
 } // namespace
 
 std::string report(const ReportedRun& run)
@@ -103,6 +116,7 @@ std::string report(const ReportedRun& run)
          {{"start", conserved_json(summary.conserved_start)},
           {"end", conserved_json(summary.conserved_end)}}},
         {"error", error_json(summary.error)},
+        {"alarms", alarms_json(summary.alarms)},
         {"unanswered_force", vector_json(summary.unanswered_force)},
         {"drained", losses_json(summary.drained)},
         {"killed", losses_json(summary.killed)},

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include "app/alarm.hpp"
 #include "idl/duration_histogram.hpp"
 #include "meter/error_window.hpp"
 #include "sim/phase.hpp"
@@ -23,6 +25,7 @@ struct RunSummary {
     Losses drained, killed;             ///< by sinks and by colliders, over the run
     ConservedQuantities conserved_start;
     ConservedQuantities conserved_end;
+    std::vector<Alarm> alarms;  ///< that there were at the end
     ErrorEstimate error;        ///< of accelerations, at the end
     DurationHistogram frame_ms; ///< a frame's work, without the pacer's wait
     std::array<DurationHistogram, phase_count> phase_ms;

@@ -41,7 +41,7 @@ bool are_of_background(const std::vector<Assignment>& settings)
 Problems unchangeable(const std::vector<Assignment>& settings)
 {
     // Of [server] its frame_rate alone, which its own reader says.
-    std::vector<std::string> tables{"background", "control", "effects", "meter", "server"};
+    std::vector<std::string> tables{"alarms", "background", "control", "effects", "meter", "server"};
     SimulationSettings none;
     for_each_effect(none, [&]<class Table>(std::string_view name, const Table&) {
         if constexpr (requires(Table table) { table.has_value(); }) // of [[tables]] each would need a name

@@ -44,6 +44,8 @@ public:
     /// Settings by table.key; those of [background] are the region's, and stand alone.
     Problems set(const std::vector<Assignment>& settings, std::uint64_t frame);
 
+    const SimulationSettings& scene() const { return simulation_.settings(); } ///< as it is
+
     /// Gives the whole scene a level of detail; false when it has that already.
     bool set_detail(const Detail& detail, std::uint64_t frame);
 

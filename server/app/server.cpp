@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <string>
 #include <thread>
@@ -67,7 +68,9 @@ Server::Server(Job& job, bool free_run, Listeners listeners)
 RunSummary Server::run(const std::stop_token& stop)
 {
     RunSummary summary;
-    summary.conserved_start = measure_conserved();
+    const Alarms::Start at_start = measure_conserved();
+    summary.conserved_start = at_start.conserved;
+    alarms_.emplace(at_start);
     start_ = Clock::now();
     spdlog::info("started threads={} isa={} wire={}", threads_, simulation_->isa(), publisher_.has_value());
 
@@ -86,7 +89,10 @@ RunSummary Server::run(const std::stop_token& stop)
     steering_->repeat_rest(summary.frames + 1, team_);
 
     summary.wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    summary.conserved_end = measure_conserved();
+    summary.conserved_end = measure_conserved().conserved;
+    if (alarms_->look(steering_->loop().alarms, steering_->regulation()))
+        log_alarms();
+    summary.alarms = alarms_->present();
     summary.state_hash = simulation_->state_hash();
     summary.error = simulation_->error();
     spdlog::info("stopped frames={} time={:.6g} wall_s={:.3f} interrupted={}", summary.frames, summary.time,
@@ -126,8 +132,10 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     const Clock::time_point begin = Clock::now();
     const bool wanted = publisher_ && publisher_->clusters_wanted();
     const MeterSettings metering = steering_->loop().meter;
+    const AlarmSettings limits = steering_->loop().alarms;
     const Simulation::Request request{.clusters = wanted,
-                                      .conserved = wanted || (publisher_ && new_second_),
+                                      .conserved = wanted || new_second_,
+                                      .potential_energy = new_second_ && std::isfinite(limits.energy_drift),
                                       .error_pairs = meter_budget_.pairs(metering)};
     if (!metering.enabled)
         simulation_->forget_errors();
@@ -142,7 +150,8 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
                            .frame_rate_target_hz = free_run_ ? 0 : steering_->loop().server.frame_rate,
                            .regulation = steering_->regulation(),
                            .errors = errors_,
-                           .effects = effects_});
+                           .effects = effects_,
+                           .alarms = present_alarms_});
     }
     const Clock::time_point end = Clock::now();
     const FrameTime took{.wall_s = std::chrono::duration<double>(end - start_).count(),
@@ -153,6 +162,7 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     meter_budget_.add(metering, std::max(took.step_ms, period_ms), snapshot->profile[Phase::Meter],
                       snapshot->counts.error_pairs);
     summary.add(*snapshot, took.step_ms);
+    alarms_->add(*snapshot, simulation_->settings().time.step);
     new_second_ = meter.add(end, took.step_ms, snapshot->profile);
     const ControlReport regulation = steering_->regulation();
     if (each_frame_)
@@ -160,7 +170,10 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     if (new_second_) {
         report_errors(metering, regulation);
         report_effects(*snapshot);
-        each_second_({*snapshot, meter.means(), simulation_->plan(), regulation, simulation_->error()});
+        if (alarms_->look(limits, regulation))
+            log_alarms();
+        each_second_({*snapshot, meter.means(), simulation_->plan(), regulation, simulation_->error(),
+                      alarms_->present()});
     }
 }
 
@@ -201,10 +214,31 @@ double Server::encoding_ms()
     return encoded ? counters.encode_ms : 0;
 }
 
-ConservedQuantities Server::measure_conserved()
+/// What is new in the log, once; the rest for those who read it.
+void Server::log_alarms()
 {
-    ConservedQuantities measured;
-    team_.run([&] { measured = simulation_->snapshot({.conserved = true}).conserved; });
+    const auto known = [](const std::vector<Alarm>& alarms, std::string_view name) {
+        return std::any_of(alarms.begin(), alarms.end(),
+                           [&](const Alarm& alarm) { return alarm.name == name; });
+    };
+    const std::vector<Alarm> before = present_alarms_ ? *present_alarms_ : std::vector<Alarm>{};
+    const std::vector<Alarm>& now = alarms_->present();
+    for (const Alarm& alarm : now)
+        if (!known(before, alarm.name))
+            spdlog::warn("alarm {} frame={} {}", alarm.name, alarm.first_frame, alarm.text);
+    for (const Alarm& alarm : before)
+        if (!known(now, alarm.name))
+            spdlog::info("alarm {} is over, last in frame {}", alarm.name, alarm.last_frame);
+    present_alarms_ = std::make_shared<const std::vector<Alarm>>(now);
+}
+
+Alarms::Start Server::measure_conserved()
+{
+    Alarms::Start measured;
+    team_.run([&] {
+        const Snapshot& now = simulation_->snapshot({.conserved = true, .potential_energy = true});
+        measured = {now.conserved, now.potential_energy};
+    });
     return measured;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "app/alarms.hpp"
 #include "app/job.hpp"
 #include "app/loop_meter.hpp"
 #include "app/meter_budget.hpp"
@@ -66,7 +67,10 @@ private:
     /// What the publisher spent on a frame since the last call, if it encoded one.
     double encoding_ms();
 
-    ConservedQuantities measure_conserved();
+    /// Says in the log which alarms came and went, and has them published.
+    void log_alarms();
+
+    Alarms::Start measure_conserved();
 
     std::uint64_t frames_; ///< to run; 0: until stopped
     bool free_run_;        ///< no waiting between frames
@@ -81,9 +85,11 @@ private:
     MeterBudget meter_budget_;
     std::shared_ptr<const ErrorReport> errors_;   ///< to be published
     std::shared_ptr<const EffectReport> effects_; ///< likewise
-    Pacer::Clock::time_point start_{};            ///< of the run
-    std::uint64_t frames_encoded_ = 0;            ///< by the publisher, when that was last asked
-    bool new_second_ = true;                      ///< the next frame is the first of a second
+    std::optional<Alarms> alarms_;
+    std::shared_ptr<const std::vector<Alarm>> present_alarms_;
+    Pacer::Clock::time_point start_{}; ///< of the run
+    std::uint64_t frames_encoded_ = 0; ///< by the publisher, when that was last asked
+    bool new_second_ = true;           ///< the next frame is the first of a second
 };
 
 } // namespace slod

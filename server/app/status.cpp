@@ -69,29 +69,38 @@ std::string error_text(const ErrorEstimate& error)
                        100 * error.median.low, 100 * error.median.high);
 }
 
+/// Their names: "  ! under_resolved".
+std::string alarm_text(std::span<const Alarm> alarms)
+{
+    std::string text;
+    for (const Alarm& alarm : alarms)
+        text += (text.empty() ? "  ! " : ", ") + std::string(alarm.name);
+    return text;
+}
+
 } // namespace
 
 std::string status_line(const RunStatus& status)
 {
-    const auto& [snapshot, means, plan, regulation, error] = status;
-    return fmt::format("frame {}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}{}  {:.1f} ms:{}",
-                       snapshot.frame, snapshot.time, means.frame_rate_hz, speed_text(means.real_time_factor),
-                       grouped(snapshot.counts.particles), grouped(snapshot.counts.clusters),
-                       size_text(snapshot, regulation), error_text(error), means.work_ms,
-                       longest_phases(means.profile, plan));
+    const auto& [snapshot, means, plan, regulation, error, alarms] = status;
+    return fmt::format("frame {}{}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}{}  {:.1f} ms:{}",
+                       snapshot.frame, alarm_text(alarms), snapshot.time, means.frame_rate_hz,
+                       speed_text(means.real_time_factor), grouped(snapshot.counts.particles),
+                       grouped(snapshot.counts.clusters), size_text(snapshot, regulation), error_text(error),
+                       means.work_ms, longest_phases(means.profile, plan));
 }
 
 std::string status_record(const RunStatus& status)
 {
-    const auto& [snapshot, means, plan, regulation, error] = status;
+    const auto& [snapshot, means, plan, regulation, error, alarms] = status;
     return fmt::format(
         "status frame={} time={:.6g} frame_rate_hz={:.1f} real_time_factor={:.4g} particles={} "
         "clusters={} max_cluster_size={:.4g} control={} error_median={:.3g} error_p99={:.3g} "
-        "error_samples={} work_ms={:.2f}{}",
+        "error_samples={} alarms={} work_ms={:.2f}{}",
         snapshot.frame, snapshot.time, means.frame_rate_hz, means.real_time_factor, snapshot.counts.particles,
         snapshot.counts.clusters, snapshot.regions.back().max_cluster_size,
         names(regulation.state)[std::size_t(regulation.state)], error.median.value, error.p99.value,
-        error.samples, means.work_ms, phase_records(means.profile, plan));
+        error.samples, alarms.size(), means.work_ms, phase_records(means.profile, plan));
 }
 
 void StatusDisplay::update(const RunStatus& status)

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "app/alarm.hpp"
 #include "app/log.hpp"
 #include "app/loop_meter.hpp"
 #include "control/controller.hpp"
@@ -18,6 +20,7 @@ struct RunStatus {
     const Plan& plan;
     ControlReport regulation{};
     ErrorEstimate error{}; ///< of accelerations
+    std::span<const Alarm> alarms{};
 };
 
 /// One line for people: frame, rates, sizes, the error with its interval, and the milliseconds of the longest

@@ -15,6 +15,7 @@ ConservedQuantities& ConservedQuantities::operator+=(const ConservedQuantities& 
     momentum += other.momentum;
     angular_momentum += other.angular_momentum;
     kinetic_energy += other.kinetic_energy;
+    mass_moment += other.mass_moment;
     return *this;
 }
 
@@ -28,8 +29,8 @@ ConservedQuantities conserved_quantities(const ClusterStore& store, std::size_t 
     // sum of m dx x dv from the off-diagonal differences of sum of m dx dv^T
     const Vector3d spin{inner.cross(1, 2) - inner.cross(2, 1), inner.cross(2, 0) - inner.cross(0, 2),
                         inner.cross(0, 1) - inner.cross(1, 0)};
-    return {mass, mass * v, mass * x.cross(v) + spin,
-            0.5 * (mass * v.squaredNorm() + inner.velocity.trace())};
+    return {mass, mass * v, mass * x.cross(v) + spin, 0.5 * (mass * v.squaredNorm() + inner.velocity.trace()),
+            mass * x};
 }
 
 ConservedQuantities conserved_quantities(const ClusterStore& store, std::uint64_t frame)

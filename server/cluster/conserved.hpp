@@ -13,6 +13,7 @@ struct ConservedQuantities {
     Vector3d momentum{0, 0, 0};
     Vector3d angular_momentum{0, 0, 0}; ///< about the scene's origin, internal part included
     double kinetic_energy = 0;          ///< internal part included
+    Vector3d mass_moment{0, 0, 0};      ///< sum of m x
 
     ConservedQuantities& operator+=(const ConservedQuantities& other);
 };

@@ -5,8 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "core/number_text.hpp"
 #include "scene/kinds.hpp"
 #include "scene/value_text.hpp"
+#include "sim/conservation.hpp"
+#include "sim/snapshot.hpp"
 #include "simd/kernels.hpp"
 
 namespace slod {
@@ -85,6 +88,26 @@ Problems problems(const LoopSettings& loop)
     return found;
 }
 
+Problems problems(const AlarmSettings& alarms, const SimulationSettings& simulation)
+{
+    Problems found;
+    const auto check = [&](std::string_view key, double limit, std::string_view breaks) {
+        if (std::isfinite(limit) && !breaks.empty())
+            found.push_back("alarms." + std::string(key) + " = " + number_text(limit) + " limits what " +
+                            std::string(breaks) + " does not conserve; use inf, or leave that effect out.");
+    };
+    check("energy_drift", alarms.energy_drift, breaks_energy(simulation));
+    check("momentum_drift", alarms.momentum_drift, breaks_momentum(simulation));
+    check("angular_momentum_drift", alarms.angular_momentum_drift, breaks_momentum(simulation));
+    if (std::isfinite(alarms.energy_drift) && simulation.gravity &&
+        simulation.background.max_cluster_size > 1)
+        found.push_back("alarms.energy_drift = " + number_text(alarms.energy_drift) +
+                        " needs the potential energy of all pairs, which clusters do not have; use inf, or "
+                        "background.max_cluster_size = 1 and at most " +
+                        std::to_string(Snapshot::most_pairwise) + " particles.");
+    return found;
+}
+
 Problems problems(const Scene& scene)
 {
     Problems found = problems(scene.simulation);
@@ -95,6 +118,8 @@ Problems problems(const Scene& scene)
         check_encounter(scene.encounter, found);
     check_instruction_set(scene.loop.server, found);
     for (const std::string& problem : problems(scene.loop))
+        found.push_back(problem);
+    for (const std::string& problem : problems(scene.loop.alarms, scene.simulation))
         found.push_back(problem);
     if (scene.initial.fallback == InitialModel::Gadget2)
         found.push_back("initial.fallback = \"gadget2\" is what it would fall back from; use none, galaxy or "

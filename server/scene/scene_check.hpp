@@ -8,4 +8,7 @@ namespace slod {
 /// included; empty when nothing is.
 Problems problems(const Scene& scene);
 
+/// Limits of what the scene does not conserve, or what is not measured of it; empty when there are none.
+Problems problems(const AlarmSettings& alarms, const SimulationSettings& simulation);
+
 } // namespace slod

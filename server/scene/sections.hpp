@@ -70,6 +70,7 @@ void for_each_section(LoopSettings& loop, Visitor&& visit)
     visit(Section{"control", "The frame rate and the error, held by changing the level of detail."},
           loop.control);
     visit(Section{"meter", "The error of accelerations, measured while the scene runs."}, loop.meter);
+    visit(Section{"alarms", "From where on the server raises an alarm."}, loop.alarms);
 }
 
 /// Likewise for every table, in the order of the reference. The two are the only list of tables.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "control/settings.hpp"
@@ -36,11 +37,24 @@ struct MeterSettings {
     double share = 0.02; ///< of a frame's time, at most
 };
 
+/// From where on the server raises an alarm. Drifts are those of quantities that the scene conserves, since
+/// the start; where it does not, a finite limit is refused.
+struct AlarmSettings {
+    double energy_drift = std::numeric_limits<double>::infinity();   ///< over the energy's size
+    double momentum_drift = std::numeric_limits<double>::infinity(); ///< over the largest there could be
+    double angular_momentum_drift = std::numeric_limits<double>::infinity(); ///< over that at the start
+    double dropped_momentum = std::numeric_limits<double>::infinity(); ///< over the largest there could be
+    double under_resolved = 0.1;                                       ///< share of a second's frames
+    double reformed = 1;    ///< share of all particles that a frame forms anew, mean over a second
+    double quarantined = 0; ///< particles since the start
+};
+
 /// What may change while the server runs a scene, besides the simulation.
 struct LoopSettings {
     ServerSettings server; ///< the frame rate of it
     ControlSettings control;
     MeterSettings meter;
+    AlarmSettings alarms;
 };
 
 /// What is wrong with the settings together, each with its table; empty when nothing is.
@@ -88,6 +102,31 @@ void for_each_field(MeterSettings& meter, Visitor&& visit)
               "Share of a frame's time that it may take: of the period, or of the work where that is longer.",
               1e-4, 0.5},
         meter.share);
+}
+
+template <class Visitor>
+void for_each_field(AlarmSettings& alarms, Visitor&& visit)
+{
+    const auto share = [&](std::string_view key, std::string_view help, double& value) {
+        visit(Field{key, "", help, 0, no_maximum, true}, value);
+    };
+    share("energy_drift", "Change of the total energy since the start, relative; inf: none is too much.",
+          alarms.energy_drift);
+    share(
+        "momentum_drift",
+        "Change of the momentum since the start, relative to the largest of so much mass and kinetic energy.",
+        alarms.momentum_drift);
+    share("angular_momentum_drift", "Change of the angular momentum since the start, relative.",
+          alarms.angular_momentum_drift);
+    share("dropped_momentum",
+          "Momentum that regions which do not attract others brought in, relative as momentum_drift.",
+          alarms.dropped_momentum);
+    share("under_resolved", "Share of a second's frames that would have needed more sub-steps; 1: off.",
+          alarms.under_resolved);
+    share("reformed", "Share of all particles that a frame forms anew, in the mean of a second; 1: off.",
+          alarms.reformed);
+    share("quarantined", "Particles taken out since the start, as they left the range of numbers.",
+          alarms.quarantined);
 }
 
 template <class Visitor>

@@ -1,4 +1,7 @@
+#include <limits>
+
 #include "core/parallel.hpp"
+#include "gravity/potential.hpp"
 #include "sim/state.hpp"
 
 namespace slod {
@@ -38,16 +41,29 @@ void Simulation::State::observe(const Request& request)
     count_regions();
     note_effects();
     snapshot.conserved = {};
-    snapshot.field_energy = 0;
+    snapshot.potential_energy = std::numeric_limits<double>::quiet_NaN();
     if (request.conserved) {
         snapshot.conserved = conserved_quantities(store, frame);
-        if (field_forces)
-            snapshot.field_energy = field_forces->potential_energy(store, frame);
+        if (request.potential_energy)
+            snapshot.potential_energy = potential_energy();
     }
     if (request.clusters)
         copy_clusters();
     else
         snapshot.clusters.clear();
+}
+
+/// To be called when the conserved quantities are known.
+double Simulation::State::potential_energy() const
+{
+    double energy = -fields.gravity.dot(snapshot.conserved.mass_moment);
+    if (field_forces)
+        energy += field_forces->potential_energy(store, frame);
+    if (!settings.gravity)
+        return energy;
+    if (!plan.unclustered || view.body_count() > Snapshot::most_pairwise)
+        return std::numeric_limits<double>::quiet_NaN();
+    return energy + slod::potential_energy(view, *kernels, gravitational_constant);
 }
 
 void Simulation::State::count_regions()

@@ -33,6 +33,8 @@ public:
     struct Request {
         bool clusters = false;
         bool conserved = false;
+        bool potential_energy =
+            false; ///< with the conserved quantities; over all pairs where there is gravity
         /// Pairs of a particle and a member drawn that the error meter may sum up, and a block of some
         /// thousand particles more; 0: it rests. The outcome is the same.
         std::uint64_t error_pairs = 0;

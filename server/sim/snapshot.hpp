@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -146,9 +147,11 @@ struct Snapshot {
     /// Momentum per time that gravity brings in where regions do not attract those that attract them; 0
     /// otherwise.
     Vector3d unanswered_force{0, 0, 0};
-    /// Potential energy of all particles in the effects of place that have one, where conserved quantities
-    /// were asked for.
-    double field_energy = 0;
+    /// Of all particles in each other's gravity, in uniform gravity and in the effects of place that have
+    /// one, where it was asked for. NaN else, and under the self-gravity of clusters or of more than
+    /// most_pairwise particles: the sum goes over all pairs.
+    double potential_energy = std::numeric_limits<double>::quiet_NaN();
+    static constexpr std::size_t most_pairwise = 4096;
     Losses drained;          ///< what sinks took in this frame
     Losses killed;           ///< what colliders did, with the velocities of the impacts
     Quarantined quarantined; ///< what left the range of numbers

@@ -66,6 +66,7 @@ struct Simulation::State {
     void compare(ErrorMeter::Drawn& drawn) const;
     Vector3d air_at(const Vector3d& x, const Vector3d& v) const;
     Vector3d air_by_cluster(std::size_t slot, const Vector3d& away, const Vector3d& v) const;
+    double potential_energy() const;
     void count_regions();
     void copy_clusters();
 

@@ -146,7 +146,7 @@ TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
     expect("gravty.strength", "gravty.strength cannot change while the scene runs; did you mean gravity?");
     for (const std::string table : {"galaxy.particles", "wire.commands", "motion.clock", "emitter.0.rate"})
         expect(table, table + " cannot change while the scene runs; start the server with it. What can is in "
-                              "background, control, effects, meter, server, gravity");
+                              "alarms, background, control, effects, meter, server, gravity");
     expect("gravity", "write table.key");
     expect("effects.gravty", "did you mean gravity?");
     expect("effects.vortex", "effects.vortex = 1 ");

@@ -79,8 +79,8 @@ TEST(SceneReader, AnUnknownKeySuggestsTheNearest)
 
 TEST(SceneReader, AnUnknownKeyThatIsLikeNoneListsAll)
 {
-    EXPECT_TRUE(
-        only_says(problems_of(minimal_scene + "[time]\nduration = 2\n"), {"duration", "known are step."}));
+    EXPECT_TRUE(only_says(problems_of(minimal_scene + "[time]\nduration = 2\n"),
+                          {"duration", "known are step, max_substeps, substep_angle."}));
 }
 
 TEST(SceneReader, AnUnknownTableSuggestsTheNearest)

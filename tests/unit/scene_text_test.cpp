@@ -210,6 +210,14 @@ Scene random_scene(std::uint64_t seed)
         if (!named(table))
             simulation.effects.on[effect_row(name)] = true;
     });
+    const auto not_together = [](const std::string& problem) {
+        return problem.starts_with("time.max_substeps");
+    };
+    if (const Problems found = problems(simulation); std::any_of(found.begin(), found.end(), not_together))
+        simulation.time.max_substeps = 1;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (AlarmSettings& alarms = scene.loop.alarms; !problems(alarms, simulation).empty())
+        alarms.energy_drift = alarms.momentum_drift = alarms.angular_momentum_drift = any;
     scene.loop.meter.enabled = scene.loop.meter.enabled || scene.loop.control.mode == ControlMode::Error;
     scene.loop.server.isa = InstructionSet(scrambler.below(2)); // the others do not run everywhere
     scene.initial.model = scrambler.below(2) == 0 ? InitialModel::None : InitialModel::Gadget2;

@@ -160,10 +160,10 @@ TEST(WireEncoding, DriftIsSinceTheFirstMeasurement)
     StatsEncoder encoder(session);
     const LoopStats loop{};
     Snapshot snapshot = made_up_snapshot(1, 1);
-    encoder.set_conserved(snapshot.conserved);
+    encoder.set_conserved(snapshot.conserved, snapshot.potential_energy);
     encoder.encode(snapshot, loop, {});
     snapshot.conserved.kinetic_energy += 0.25;
-    encoder.set_conserved(snapshot.conserved);
+    encoder.set_conserved(snapshot.conserved, snapshot.potential_energy);
     const wire::Stats& later = encoder.encode(snapshot, loop, {});
     EXPECT_TRUE(later.conserved_measured);
     EXPECT_EQ(later.drift.kinetic_energy, 0.25);
@@ -176,7 +176,7 @@ TEST(WireEncoding, TheLastMeasurementHoldsUntilTheNext)
 {
     StatsEncoder encoder(session);
     Snapshot snapshot = made_up_snapshot(1, 1);
-    encoder.set_conserved(snapshot.conserved);
+    encoder.set_conserved(snapshot.conserved, snapshot.potential_energy);
     const double mass = snapshot.conserved.mass;
     snapshot.conserved = {};
     const wire::Stats& later = encoder.encode(snapshot, {}, {});
