@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cost/formatted.hpp"
+#include "core/formatted.hpp"
 
 namespace slod::cost {
 namespace {

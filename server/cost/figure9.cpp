@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cost/formatted.hpp"
+#include "core/formatted.hpp"
 #include "idl/gnuplot.hpp"
 #include "sim/simulation.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/formatted.hpp"
 #include "core/number_text.hpp"
-#include "cost/formatted.hpp"
 
 namespace slod::cost {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/formatted.hpp"
 #include "core/number_text.hpp"
-#include "cost/formatted.hpp"
 
 namespace slod::cost {
 namespace {

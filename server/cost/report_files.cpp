@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/formatted.hpp"
 #include "core/number_text.hpp"
-#include "cost/formatted.hpp"
 #include "idl/gnuplot.hpp"
 
 namespace slod::cost {

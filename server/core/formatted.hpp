@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-namespace slod::cost {
+namespace slod {
 
 /// As printf() would print it.
 template <class... Values>
@@ -14,4 +14,4 @@ std::string formatted(const char* format, Values... values)
     return text;
 }
 
-} // namespace slod::cost
+} // namespace slod
