@@ -49,6 +49,11 @@ bool is_case(std::string_view test)
            std::isdigit(test[1]) && std::isdigit(test[2]) && test[3] == '_';
 }
 
+std::string full_name(const testing::TestInfo& test)
+{
+    return std::string(test.test_suite_name()) + "." + test.name();
+}
+
 Json json_of(const CaseRow& row)
 {
     return {{"quantity", row.quantity},
@@ -72,33 +77,52 @@ Json json_of(const CasePicture& picture)
             {"log_x", picture.log_x}, {"log_y", picture.log_y},   {"curves", curves}};
 }
 
-/// Writes what a case's test found, once it has ended.
+/// Where what a test found is written; empty when nobody asks for it.
+std::filesystem::path file_of(const testing::TestInfo& test)
+{
+    const char* const folder = std::getenv("SLOD_CASE_ROWS");
+    if (folder == nullptr || !is_case(test.name()))
+        return {};
+    std::string name = full_name(test);
+    std::replace(name.begin(), name.end(), '/', '-');
+    std::filesystem::create_directories(folder);
+    return std::filesystem::path(folder) / (name + ".json");
+}
+
+void write(const std::filesystem::path& file, const testing::TestInfo& test, bool ended)
+{
+    Json json = {{"test", full_name(test)},
+                 {"case", std::string(test.name(), 3)},
+                 {"passed", ended && test.result()->Passed()},
+                 {"ended", ended},
+                 {"rows", Json::array()},
+                 {"pictures", Json::array()}};
+    for (const CaseRow& row : findings.rows)
+        json["rows"].push_back(json_of(row));
+    for (const CasePicture& picture : findings.pictures)
+        json["pictures"].push_back(json_of(picture));
+    std::ofstream out(file);
+    out << json.dump(1) << '\n';
+    if (!out.flush())
+        ADD_FAILURE() << "cannot write " << file;
+}
+
+/// Writes what a case's test found once it has ended, and before that, lest a crash go unseen, that it has
+/// not.
 class CaseFiles : public testing::EmptyTestEventListener {
-    void OnTestStart(const testing::TestInfo&) override { findings = {}; }
+    void OnTestStart(const testing::TestInfo& test) override
+    {
+        findings = {};
+        if (const auto file = file_of(test); !file.empty())
+            write(file, test, false);
+    }
 
     void OnTestEnd(const testing::TestInfo& test) override
     {
-        const char* const folder = std::getenv("SLOD_CASE_ROWS");
-        if (folder == nullptr || !is_case(test.name()) || test.result()->Skipped())
-            return;
-        const std::string full_name = std::string(test.test_suite_name()) + "." + test.name();
-        Json json = {{"test", full_name},
-                     {"case", std::string(test.name(), 3)},
-                     {"passed", test.result()->Passed()},
-                     {"seconds", double(test.result()->elapsed_time()) * 1e-3},
-                     {"rows", Json::array()},
-                     {"pictures", Json::array()}};
-        for (const CaseRow& row : findings.rows)
-            json["rows"].push_back(json_of(row));
-        for (const CasePicture& picture : findings.pictures)
-            json["pictures"].push_back(json_of(picture));
-        std::string file = full_name;
-        std::replace(file.begin(), file.end(), '/', '-');
-        std::filesystem::create_directories(folder);
-        std::ofstream out(std::filesystem::path(folder) / (file + ".json"));
-        out << json.dump(1) << '\n';
-        if (!out.flush())
-            ADD_FAILURE() << "cannot write " << file << ".json into " << folder;
+        if (const auto file = file_of(test); test.result()->Skipped())
+            std::filesystem::remove(file);
+        else if (!file.empty())
+            write(file, test, true);
     }
 };
 
