@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "support/clouds.hpp"
 #include "support/random_regions.hpp"
 #include "support/rigid_scenes.hpp"
@@ -23,8 +24,9 @@ TEST(SlodStability, S07_ParticlesInOnePlaceAreDividedByTheirNumber)
         UpdateCounts counts;
         for (std::uint64_t frame = 1; frame <= 100; ++frame)
             regrouping.update(world.tree, frame, counts);
-        EXPECT_EQ(world.store.clusters.alive_count(), (count + 7) / 8);
-        EXPECT_EQ(counts.splits, 1U) << "and never again";
+        const double most = double((count + 7) / 8);
+        expect_within("clusters over those needed", double(world.store.clusters.alive_count()) / most, 1, 1);
+        expect_within("splits, once and never again", double(counts.splits), 1, 1);
         EXPECT_EQ(problems(world.tree, world.store.clusters), Problems{});
     }
     // A leaf that cannot be divided is no reason to compare all with all. When it has its turn, a cluster
@@ -38,7 +40,8 @@ TEST(SlodStability, S07_ParticlesInOnePlaceAreDividedByTheirNumber)
         pair_tests += crowd.counts.pair_tests;
     }
     EXPECT_EQ(crowd.alive().size(), count / 8);
-    EXPECT_LE(pair_tests, 4 * count * Gathering::most_candidates);
+    expect_at_most("pairs that 20,000 in one place look at", double(pair_tests),
+                   4.0 * count * Gathering::most_candidates);
     // The build ends, fills every cluster, as no stray will ever come to it, and gives the same each time.
     Simulation one(rigid_settings(8), ball(1000, 0, 0, 1), {}),
         other(rigid_settings(8), ball(1000, 0, 0, 1), {});
@@ -81,13 +84,16 @@ TEST(SlodStability, S08_RowsSquaresAndCubesAreDividedEvenlyInAFlatTree)
             smallest = std::min(smallest, world.clusters().count[slot.index]);
             largest = std::max(largest, world.clusters().count[slot.index]);
         }
-        EXPECT_LE(largest, size);
-        EXPECT_GE(smallest, size / 2) << "a pool has 8 to 16, which are one cluster or two";
+        expect_at_most("largest cluster", largest, size);
+        // A pool has 8 to 16, which are one cluster or two.
+        expect_at_least("smallest cluster", smallest, size / 2);
         int deepest = 0;
         for (const Node& node : world.tree().subtrees.front().nodes)
             deepest = std::max(deepest, node.depth);
         const double levels = std::ceil(std::log2(double(particles.size()) / size)) + 2;
-        EXPECT_LE(deepest, levels * 3 / dimensions);
+        expect_at_most("depth in " + std::to_string(dimensions) +
+                           (dimensions == 1 ? " dimension" : " dimensions"),
+                       deepest, levels * 3 / dimensions);
     }
 }
 
@@ -107,10 +113,10 @@ TEST(SlodStability, S24_OneParticlePerClusterEverywhereIsTheRunWithoutClusters)
         ASSERT_EQ(with.step({}).counts.clusters, 500U);
     }
     const ParticleSet expected = without.particles(), found = with.particles();
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        ASSERT_EQ(found[i].position, expected[i].position) << "particle " << i;
-        ASSERT_EQ(found[i].velocity, expected[i].velocity) << "particle " << i;
-    }
+    int different = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        different += found[i].position != expected[i].position || found[i].velocity != expected[i].velocity;
+    expect_at_most("particles of 500 that differ in a bit", different, 0);
 }
 
 /// Largest difference between the centre of one cluster and that of free particles, in `frames` frames.
@@ -140,12 +146,54 @@ TEST(SlodStability, S25_OneClusterOfAllMovesAsTheMeanOfAllInUniformGravity)
     SimulationSettings settings = windy(1e6);
     settings.linear_drag.reset();
     settings.uniform_wind.reset();
-    EXPECT_LE(centre_error(settings, 5000, 100), 100 * std::sqrt(3) * 0x1p-43);
+    expect_at_most("error of the centre", centre_error(settings, 5000, 100), 100 * std::sqrt(3) * 0x1p-43);
 }
 
 TEST(SlodStability, S26_LinearDragActsOnTheCentreAsOnTheMean)
 {
-    EXPECT_LE(centre_error(windy(1e6), 300, 1000), 1e-9);
+    expect_at_most("error of the centre in linear drag", centre_error(windy(1e6), 300, 1000), 1e-9);
+}
+
+// Half the Laplacian of |w| w is 2 w / |w|, so that the mean of what a swarm of velocities w + d feels is
+// what its mean feels and c sigma^2 2 / 3 more, sigma^2 the mean of d^2. A cluster lacks just that: as of the
+// next order, relative, it lacks (sigma / w)^2 = 0.003, and for what 2000 draws are off isotropy three of
+// their standard deviations of 0.02.
+TEST(SlodStability, S26_QuadraticDragOnTheCentreLacksTheTermOfSecondOrderInTheSpread)
+{
+    constexpr double coefficient = 0.1;
+    SimulationSettings settings = windy(1e6);
+    settings.gravity.reset();
+    settings.uniform_gravity.reset();
+    settings.linear_drag.reset();
+    settings.uniform_wind.reset();
+    settings.quadratic_drag = QuadraticDragSettings{coefficient};
+    settings.time.step = 0x1p-10;
+    ParticleSet particles = ball(2000, 1, 1, 26, {512, 512, 512});
+    Vector3d mean(0, 0, 0);
+    for (Particle& particle : particles) {
+        particle.velocity.x() += 15;
+        mean += particle.velocity / double(particles.size());
+    }
+    double spread = 0; // sigma^2
+    for (const Particle& particle : particles)
+        spread += (particle.velocity - mean).squaredNorm() / double(particles.size());
+    SimulationSettings single = settings;
+    single.background.max_cluster_size = 1;
+    Simulation together(settings, particles, {}), apart(single, particles, {});
+    for (int frame = 1; frame <= 256; ++frame) {
+        const Snapshot& snapshot = together.step({.clusters = true});
+        ASSERT_EQ(snapshot.clusters.size(), 1U);
+        apart.step({});
+        mean.setZero();
+        for (const Particle& particle : apart.particles())
+            mean += particle.velocity / double(particles.size());
+        const double lacking = (snapshot.clusters.velocity[0] - mean).norm() /
+                               (coefficient * spread * settings.time.step * frame);
+        if (frame == 1)
+            expect_within("what the centre lacks in quadratic drag over c sigma^2 2 / 3, at first",
+                          lacking / (2.0 / 3), 1 - 0.066, 1 + 0.066);
+        expect_at_most("what the centre lacks in quadratic drag over c sigma^2 t", lacking, 1);
+    }
 }
 
 // From leaf to leaf, cell to cell, onto the very faces and out of the grid, where both find nothing.
@@ -156,7 +204,7 @@ TEST(SlodStability, S27_BottomUpFindsWhatTopDownFindsHoweverFarTheMove)
     RigidWorld world(rules, cube(20'000, 7.9, 1, {8, 8, 8}));
     const Subtree& tree = world.tree().subtrees.front();
     Random random(27, 0, 0);
-    std::size_t outside = 0;
+    std::size_t outside = 0, different = 0;
     for (int move = 0; move < 1'000'000; ++move) {
         const PoolId start = locate(tree, Vector3d(Vector3d(8, 8, 8) + random_point(random, 7.9)));
         ASSERT_TRUE(start.valid());
@@ -165,10 +213,11 @@ TEST(SlodStability, S27_BottomUpFindsWhatTopDownFindsHoweverFarTheMove)
         if (move % 3 == 0)
             to[move % 9 / 3] = leaf.upper[move % 9 / 3];
         const PoolId found = locate(tree, to);
-        ASSERT_EQ(locate_near(tree, start, to), found) << to.transpose();
+        different += locate_near(tree, start, to) == found ? 0 : 1;
         outside += !found.valid();
     }
-    EXPECT_GT(outside, 100'000U);
+    expect_at_most("moves of a million that end elsewhere", double(different), 0);
+    expect_at_least("moves of a million that leave the grid", double(outside), 100'001);
 }
 
 // A swarm of forty clusters crosses a cell in two frames: what it leaves is pruned every eighth frame.
@@ -184,9 +233,9 @@ TEST(SlodStability, S28_TheTreeDoesNotGrowInAHundredThousandFrames)
     world.advance(99'000);
     // The swarm spreads by 0.01 per time, from a ball of radius 1 to one of 16, where each is in its own
     // cell.
-    EXPECT_LE(tree.nodes.size(), std::max<std::size_t>(nodes, 40 * 9));
-    EXPECT_LE(tree.pools.size(), std::max<std::size_t>(pools, 40 * 9));
-    EXPECT_LE(tree.pool_count(), 40U * 9);
+    expect_at_most("nodes", double(tree.nodes.size()), double(std::max<std::size_t>(nodes, 40 * 9)));
+    expect_at_most("pools", double(tree.pools.size()), double(std::max<std::size_t>(pools, 40 * 9)));
+    expect_at_most("pools in use", double(tree.pool_count()), 40 * 9);
     EXPECT_EQ(world.problems(), Problems{});
 }
 
@@ -212,10 +261,12 @@ TEST(SlodStability, S29_AParticleThatDiesLeavesTheCentreOfTheOthersAndTheLastOne
             centre += double(particle.mass) * (particle.position - Vector3d::Constant(512));
         }
         ASSERT_EQ(snapshot.clusters.mass[0], mass);
-        ASSERT_LE((snapshot.clusters.position[0] - Vector3d::Constant(512) - centre / mass).norm(), 1e-12);
+        expect_at_most("error of the centre of those left",
+                       (snapshot.clusters.position[0] - Vector3d::Constant(512) - centre / mass).norm(),
+                       1e-12);
     }
-    EXPECT_EQ(simulation.step({}).counts.clusters, 0U);
-    EXPECT_EQ(run(simulation, 20).counts.pools, 0U);
+    expect_at_most("clusters after the last one", double(simulation.step({}).counts.clusters), 0);
+    expect_at_most("pools after the last one", double(run(simulation, 20).counts.pools), 0);
     EXPECT_EQ(simulation.problems(), Problems{});
 }
 

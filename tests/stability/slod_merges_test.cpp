@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "support/clouds.hpp"
 #include "support/merging_pairs.hpp"
 #include "support/rigid_scenes.hpp"
@@ -69,15 +70,19 @@ TEST(SlodStability, S01_MergingAndSplittingRestoresEveryParticle)
     double momenta = 0;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         EXPECT_EQ(restored[i].mass, particles[i].mass);
-        EXPECT_LE((restored[i].position - particles[i].position).norm(), formings * width * float_rounding);
-        EXPECT_LE((restored[i].velocity - particles[i].velocity).norm(), formings * fastest * float_rounding);
+        expect_at_most("error of a position", (restored[i].position - particles[i].position).norm(),
+                       formings * width * float_rounding);
+        expect_at_most("error of a velocity", (restored[i].velocity - particles[i].velocity).norm(),
+                       formings * fastest * float_rounding);
         momenta += double(particles[i].mass) * particles[i].velocity.norm();
     }
-    EXPECT_NEAR(after.mass, before.mass, 1e-14 * before.mass);
-    EXPECT_LE((after.momentum - before.momentum).norm(), 1e-13 * momenta);
+    expect_at_most("error of the mass, relative", std::abs(after.mass / before.mass - 1), 1e-14);
+    // Each of 500 terms of a sum is rounded to 2^-53 of no more than the sum of all.
+    expect_at_most("error of the momentum, of the sum of all |p|",
+                   (after.momentum - before.momentum).norm() / momenta, 500 * 0x1p-53);
     // Each product of an offset and a velocity has two factors that are rounded.
-    EXPECT_LE((after.angular_momentum - before.angular_momentum).norm(),
-              2 * formings * width * fastest * before.mass * float_rounding);
+    expect_at_most("error of the angular momentum", (after.angular_momentum - before.angular_momentum).norm(),
+                   2 * formings * width * fastest * before.mass * float_rounding);
 }
 
 // What the centres lose in a merge their members have about them.
@@ -104,9 +109,10 @@ TEST(SlodStability, S02_EveryMergeTurnsTheCentresEnergyIntoInternalEnergy)
         regrouping.update(trip.world.tree, frame, trip.counts);
         const double now = conserved_quantities(trip.world.store, frame).kinetic_energy;
         // A square has two factors, no relative velocity exceeds the cloud's, and 1/2 is in the energy.
-        ASSERT_NEAR(now, before, formings * fastest * fastest * totals(particles).mass * float_rounding);
+        expect_at_most("change of the energy of centres and members", std::abs(now - before),
+                       formings * fastest * fastest * totals(particles).mass * float_rounding);
     }
-    EXPECT_LT(of_centres(), 0.5 * before);
+    expect_at_most("share of the energy that the centres have at the end", of_centres() / before, 0.5);
 }
 
 // Of two that become one and take their mean velocity, the energy of their relative motion is gone.
@@ -139,7 +145,8 @@ TEST(SlodStability, S02_WhereVelocitiesCollapseAMergeLosesTheEnergyOfTheRelative
     ASSERT_EQ(counts.merges, pairs.size());
     const double lost = before - conserved_quantities(world.store, 32).kinetic_energy;
     const double rounding = 400 * 0x1p-53 * before; // of the sum over all particles, which is larger than any
-    EXPECT_NEAR(lost, expected_loss, 2 * rounding);
+    expect_at_most("error of the energy that 200 collapses lose", std::abs(lost - expected_loss),
+                   2 * rounding);
     EXPECT_GT(lost, 1000 * rounding);
 }
 
@@ -165,13 +172,15 @@ TEST(SlodStability, S02_WhereVelocitiesCollapseMembersKeepWhatTheyHaveAboutTheir
         regrouping.update(world.tree, frame, counts);
     ASSERT_EQ(counts.merges, 1U);
     const double lost = before - conserved_quantities(world.store, 16).kinetic_energy;
-    EXPECT_NEAR(lost, 0.5 * 20 * 30 / 50 * (of_second - of_first).squaredNorm(),
-                50 * fastest * fastest * float_rounding);
+    expect_at_most("error of the energy lost where clusters swarm",
+                   std::abs(lost - 0.5 * 20 * 30 / 50 * (of_second - of_first).squaredNorm()),
+                   50 * fastest * fastest * float_rounding);
     const Vector3d common = (20 * of_first + 30 * of_second) / 50;
     const ParticleSet all = members(world.store, 16);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Vector3d own = i < 20 ? first[i].velocity - of_first : second[i - 20].velocity - of_second;
-        EXPECT_LE((all[i].velocity - common - own).norm(), 2 * fastest * float_rounding);
+        expect_at_most("error of a member's velocity", (all[i].velocity - common - own).norm(),
+                       2 * fastest * float_rounding);
     }
 }
 
@@ -187,21 +196,25 @@ TEST(SlodStability, S03_EveryMergeKeepsTheBoundThatThePapersFormulasBreak)
         ++merged;
         const double speed = pair.velocity.norm(), share = pair.other_mass / (pair.mass + pair.other_mass);
         const Vector3d& after = pair.merged_velocity;
-        ASSERT_LE((after - pair.velocity).norm(),
-                  velocity_change_bound(limits, speed, pair.mass, pair.other_mass) + 1e-12);
-        ASSERT_LE((after - pair.other_velocity).norm(),
-                  velocity_change_bound(limits, pair.other_velocity.norm(), pair.other_mass, pair.mass) +
-                      1e-12);
+        expect_at_most("change of a velocity less its bound",
+                       (after - pair.velocity).norm() -
+                           velocity_change_bound(limits, speed, pair.mass, pair.other_mass),
+                       1e-12);
+        expect_at_most(
+            "change of the other velocity less its bound",
+            (after - pair.other_velocity).norm() -
+                velocity_change_bound(limits, pair.other_velocity.norm(), pair.other_mass, pair.mass),
+            1e-12);
         const double turn = std::acos(std::min(1.0, after.dot(pair.velocity) / (after.norm() * speed)));
         speed_broken += std::abs(after.norm() - speed) > share * speed * (limits.speed_ratio - 1) ? 1 : 0;
         direction_broken += turn > share * 90 * degree ? 1 : 0;
     }
     ASSERT_GT(merged, 15'000U);
-    // In 1e6 other random merges of such masses 2.6 % broke the one and 7.5 % the other formula.
-    EXPECT_GT(double(speed_broken + direction_broken), 0.01 * double(merged));
-    EXPECT_LT(double(speed_broken + direction_broken), 0.2 * double(merged));
-    RecordProperty("speed_formula_broken", std::to_string(double(speed_broken) / double(merged)));
-    RecordProperty("direction_formula_broken", std::to_string(double(direction_broken) / double(merged)));
+    // In 1e6 other random merges of such masses 2.6 % broke the one and 7.5 % the other formula. Of 15,000
+    // such a share is off by 0.2 %.
+    expect_within("share of merges that break the paper's formulas",
+                  double(speed_broken + direction_broken) / double(merged), 0.01, 0.08);
+    report_value("of these, share that break that of speed", double(speed_broken) / double(merged));
 }
 
 Particle flying(const Vector3d& direction, std::uint64_t id)
@@ -230,6 +243,8 @@ TEST(SlodStability, S04_AChainOfMergesDoesNotExceedTheLimit)
     Vector3d mean(1, 0, 0);
     bool accepted = true;
     std::size_t joined = 1;
+    CaseCurve of_means{.name = "by the means alone", .x = {}, .y = {}};
+    CaseCurve of_unions{.name = "by the union of all members", .x = {}, .y = {}};
     for (std::uint64_t id = 1; id <= 63; ++id) {
         const Particle next = flying(turned(mean, 10 * degree), id);
         test::World world({MapKind::Identity, 0, 1}, {}, limits, 8);
@@ -239,13 +254,24 @@ TEST(SlodStability, S04_AChainOfMergesDoesNotExceedTheLimit)
             joined = chain.size();
             for (const Particle& a : chain)
                 for (const Particle& b : chain)
-                    ASSERT_GE(a.velocity.dot(b.velocity), std::cos(30 * degree) - 1e-12);
+                    expect_at_most("angle between two members",
+                                   std::acos(std::min(1.0, a.velocity.dot(b.velocity))) / degree, 30 + 1e-9);
         }
         mean += (next.velocity - mean) / double(chain.size());
+        for (CaseCurve* const curve : {&of_means, &of_unions}) {
+            if (curve == &of_unions && !accepted)
+                continue;
+            curve->x.push_back(double(chain.size()));
+            curve->y.push_back(std::acos(std::min(1.0, mean.normalized().x())) / degree);
+        }
     }
-    EXPECT_GT(joined, 2U);
-    EXPECT_LT(joined, 64U);
-    EXPECT_GT(std::acos(mean.normalized().x()), 36 * degree) << "what the union test prevents";
+    expect_within("members that join", double(joined), 3, 63);
+    expect_at_least("degrees that the first would be off by the means alone",
+                    std::acos(mean.normalized().x()) / degree, 36);
+    report_picture({.title = "A chain of merges, each 10 degrees off",
+                    .x_axis = "members",
+                    .y_axis = "first one off the cluster, degrees",
+                    .curves = {of_means, of_unions}});
 }
 
 /// How many become one cluster when each next one flies 10 degrees off the present cluster, until one does
@@ -275,10 +301,11 @@ std::pair<std::size_t, double> chain(MergedVelocities merged_velocities)
 
 TEST(SlodStability, S04_WhereVelocitiesCollapseTheLimitHoldsForEachMergeAndNotForAChain)
 {
-    EXPECT_LT(chain(MergedVelocities::Keep).first, 64U);
+    expect_at_most("members that join where velocities are kept", double(chain(MergedVelocities::Keep).first),
+                   63);
     const auto [joined, turn] = chain(MergedVelocities::Collapse);
-    EXPECT_EQ(joined, 64U);
-    EXPECT_GT(turn, 36 * degree);
+    expect_within("members that join where they collapse", double(joined), 64, 64);
+    expect_at_least("degrees that the first is off where they collapse", turn / degree, 36);
 }
 
 TEST(SlodStability, S21_CounterStreamingJetsNeverMerge)
@@ -300,14 +327,16 @@ TEST(SlodStability, S21_CounterStreamingJetsNeverMerge)
     };
     const double forth = flux(1), back = flux(-1);
     world.advance(100);
-    EXPECT_LT(world.clusters().alive_count(), 500U);
+    expect_at_most("clusters of 2000 particles", double(world.clusters().alive_count()), 499);
+    int mixed = 0;
     for (const ClusterSlot slot : world.alive()) {
         const ParticleSet members = world.members(slot);
         for (const Particle& particle : members)
-            ASSERT_GT(particle.velocity.x() * members.front().velocity.x(), 0);
+            mixed += particle.velocity.x() * members.front().velocity.x() > 0 ? 0 : 1;
     }
-    EXPECT_NEAR(flux(1), forth, 1e-12 * forth);
-    EXPECT_NEAR(flux(-1), back, 1e-12 * forth);
+    expect_at_most("members of the other jet", mixed, 0);
+    expect_at_most("error of the flux of momentum forth, relative", std::abs(flux(1) / forth - 1), 1e-12);
+    expect_at_most("error of the flux of momentum back, relative", std::abs(flux(-1) / back - 1), 1e-12);
 }
 
 TEST(SlodStability, S22_ARestingPileMergesBelowTheSpeedFloor)
@@ -318,7 +347,7 @@ TEST(SlodStability, S22_ARestingPileMergesBelowTheSpeedFloor)
         rules.background.velocity_reference = VelocityReference::Rest;
         RigidWorld world(rules, particles, true);
         world.advance(100);
-        EXPECT_LT(world.clusters().alive_count(), 1000U / 8) << "speed " << speed;
+        expect_at_most("clusters of 1000 particles", double(world.clusters().alive_count()), 1000 / 8 - 1);
         for (const ClusterSlot slot : world.alive())
             EXPECT_TRUE(world.clusters().velocity[slot.index].allFinite());
         EXPECT_EQ(world.problems(), Problems{});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "support/clouds.hpp"
 #include "support/random_regions.hpp"
 #include "support/rigid_scenes.hpp"
@@ -27,7 +28,8 @@ TEST(SlodStability, S05_JitterOverAFaceOfACellFormsNothingAnew)
             world.store.clusters.position[slot.index].x() = 1 + (frame % 2 == 0 ? amplitude : -amplitude);
             regrouping.update(world.tree, frame, counts);
         }
-        EXPECT_EQ(counts.reformed_members, 0U);
+        expect_at_most("members formed anew by jitter over a face of a cell", double(counts.reformed_members),
+                       0);
         EXPECT_LE(world.region().pool_count(), 2U);
         for (std::uint64_t frame = 10'001; frame <= 10'008; ++frame)
             regrouping.update(world.tree, frame, counts);
@@ -51,7 +53,8 @@ TEST(SlodStability, S12_CellsThatAreLaidAnewAskNoMoreRegionsThanTheOldOnes)
     background.partition.max_breadth = 1.5;
     ASSERT_EQ(simulation.change_region(background), Problems{});
     run(simulation, 1);
-    EXPECT_EQ(simulation.step({}).counts.boundary_tests, 0U);
+    expect_at_most("regions asked about in cells laid anew",
+                   double(simulation.step({}).counts.boundary_tests), 0);
 }
 
 /// A hundred clumps of 16 about the face x = 0, within 1e-3 of it.
@@ -91,9 +94,18 @@ TEST(SlodStability, S05_JitterOverAFaceOfARegionSplitsAndMergesAtMostEveryTenthF
         ASSERT_EQ(counts.particles, 1600U);
     }
     EXPECT_GE(crossings, clusters / 10 * 9) << "all but what is split are handed over";
-    EXPECT_LE(churn, clusters / 10);
-    RecordProperty("churn_per_cluster_and_frame", std::to_string(double(churn) / double(clusters)));
+    expect_at_most("splits and merges per cluster and frame at a face of a region",
+                   double(churn) / double(clusters), 0.1);
     EXPECT_EQ(simulation.problems(), Problems{});
+}
+
+/// Particles of two sets, in the order of their ids, that are not in the same place to the bit.
+double elsewhere(const ParticleSet& found, const ParticleSet& expected)
+{
+    double different = std::abs(double(found.size()) - double(expected.size()));
+    for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i)
+        different += found[i].position == expected[i].position ? 0 : 1;
+    return different;
 }
 
 TEST(SlodStability, S09_ARegionOfNoSizeIsEmptyAndOneThatMakesNoSenseIsRefused)
@@ -105,18 +117,21 @@ TEST(SlodStability, S09_ARegionOfNoSizeIsEmptyAndOneThatMakesNoSenseIsRefused)
     ASSERT_EQ(simulation.add_region(ball_region("point", {0, 0, 0}, 0, 1)), Problems{});
     ASSERT_EQ(simulation.add_region(box_region("line", {0, 0, 0}, {1, 0, 1}, 1)), Problems{});
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_NE(simulation.add_region(ball_region("negative", {0, 0, 0}, -1, 1)), Problems{});
-    EXPECT_NE(simulation.add_region(box_region("inside-out", {0, 0, 0}, {1, -1, 1}, 1)), Problems{});
-    EXPECT_NE(simulation.add_region(ball_region("nowhere", {nan, 0, 0}, 1, 1)), Problems{});
-    EXPECT_NE(simulation.add_region(ball_region("no-radius", {0, 0, 0}, nan, 1)), Problems{});
-    EXPECT_NE(simulation.add_region(ball_region("no-size", {0, 0, 0}, 1, nan)), Problems{});
+    int refused = 0;
+    for (const RegionOfInterest& senseless :
+         {ball_region("negative", {0, 0, 0}, -1, 1), box_region("inside-out", {0, 0, 0}, {1, -1, 1}, 1),
+          ball_region("nowhere", {nan, 0, 0}, 1, 1), ball_region("no-radius", {0, 0, 0}, nan, 1),
+          ball_region("no-size", {0, 0, 0}, 1, nan)})
+        refused += simulation.add_region(senseless) == Problems{} ? 0 : 1;
+    expect_within("senseless regions of 5 that are refused", refused, 5, 5);
     const Snapshot& snapshot = run(simulation, 20);
-    EXPECT_EQ(load_of(simulation, snapshot, "point").particles, 0U);
-    EXPECT_EQ(load_of(simulation, snapshot, "line").particles, 0U);
+    expect_at_most("particles in regions of no size",
+                   double(load_of(simulation, snapshot, "point").particles +
+                          load_of(simulation, snapshot, "line").particles),
+                   0);
     EXPECT_EQ(snapshot.regions.size(), 3U);
-    const ParticleSet expected = untouched.particles(), found = simulation.particles();
-    for (std::size_t i = 0; i < expected.size(); ++i)
-        ASSERT_EQ(found[i].position, expected[i].position) << "particle " << i;
+    expect_at_most("particles of 1000 elsewhere than without them",
+                   elsewhere(simulation.particles(), untouched.particles()), 0);
 }
 
 TEST(SlodStability, S10_ARegionOutsideOfEverythingCostsNothingAndOneOverEverythingIsABackground)
@@ -132,15 +147,14 @@ TEST(SlodStability, S10_ARegionOutsideOfEverythingCostsNothingAndOneOverEverythi
     for (int frame = 0; frame < 40; ++frame) {
         plain.step({});
         const FrameCounts counts = beside.step({}).counts;
-        EXPECT_LE(counts.boundary_tests, counts.crossings) << "asked where a cluster leaves its leaf";
+        expect_at_most("questions of a far region less clusters that leave their leaf",
+                       double(counts.boundary_tests) - double(counts.crossings), 0);
         under.step({});
     }
-    const ParticleSet expected = plain.particles(), with_other = beside.particles(),
-                      with_all = under.particles();
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        ASSERT_EQ(with_other[i].position, expected[i].position) << "particle " << i;
-        ASSERT_EQ(with_all[i].position, expected[i].position) << "particle " << i;
-    }
+    expect_at_most("particles of 2000 elsewhere than without a far region",
+                   elsewhere(beside.particles(), plain.particles()), 0);
+    expect_at_most("particles of 2000 elsewhere than in a background of the same size",
+                   elsewhere(under.particles(), plain.particles()), 0);
     EXPECT_EQ(under.snapshot({}).counts.clusters, plain.snapshot({}).counts.clusters);
 }
 
@@ -153,7 +167,7 @@ TEST(SlodStability, S10_AVastRegionOfTinyCellsHasOnlyTheCellsThatHoldSomething)
     world.advance(50);
     EXPECT_EQ(world.problems(), Problems{});
     // Beside those in use only those left in the eight frames since the last revision, each particle one.
-    EXPECT_LE(world.tree().subtrees[1].cells.size(), 500U * 9);
+    expect_at_most("cells of a vast region", double(world.tree().subtrees[1].cells.size()), 500 * 9);
 }
 
 TEST(SlodStability, S11_RegionsThatMoveThroughEachOtherHoldJustWhatPrecedenceGivesThem)
@@ -162,15 +176,17 @@ TEST(SlodStability, S11_RegionsThatMoveThroughEachOtherHoldJustWhatPrecedenceGiv
     settings.regions = {ball_region("left", {-2, 0, 0}, 1, 4), ball_region("right", {2, 0, 0}, 1, 2)};
     settings.regions[1].precedence = 1;
     Simulation simulation(settings, ball(300, 3, 0.01, 1), {});
+    std::size_t wrong = 0;
     for (int frame = 0; frame < 10'000; ++frame) {
         for (RegionOfInterest region : settings.regions) {
             region.centre.x() *= std::cos(0.013 * frame);
             ASSERT_EQ(simulation.change_region(region), Problems{});
         }
         const Snapshot& snapshot = simulation.step({.clusters = true});
-        ASSERT_EQ(clusters_in_wrong_regions(simulation, snapshot), 0U) << "frame " << frame;
+        wrong += clusters_in_wrong_regions(simulation, snapshot);
         ASSERT_EQ(snapshot.counts.particles, 300U);
     }
+    expect_at_most("clusters in the wrong region, of all frames", double(wrong), 0);
     EXPECT_EQ(simulation.problems(), Problems{});
 }
 
@@ -179,7 +195,8 @@ void expect_no_jumps(const ParticleSet& before, const ParticleSet& after, double
 {
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < before.size(); ++i)
-        ASSERT_LE((after[i].position - before[i].position).norm(), farthest + 2 * 8 * 0x1p-24);
+        expect_at_most("farthest move in a frame", (after[i].position - before[i].position).norm(),
+                       farthest + 2 * 8 * 0x1p-24);
 }
 
 // What outgrew a smaller maximum is split in a sweep of eight frames, so that no frame bears it all.
@@ -200,7 +217,7 @@ TEST(SlodStability, S12_ARegionThatBreathesOrJumpsMovesNothingAndSpreadsItsWork)
         const FrameCounts counts = simulation.step({}).counts;
         ASSERT_NO_FATAL_FAILURE(expect_no_jumps(before, simulation.particles(), 0.5 * settings.time.step))
             << "frame " << frame;
-        ASSERT_LE(counts.reformed_members, count / 4) << "frame " << frame;
+        expect_at_most("members formed anew in a frame, of 2000", double(counts.reformed_members), count / 4);
     }
     EXPECT_EQ(simulation.problems(), Problems{});
 }
@@ -218,10 +235,11 @@ TEST(SlodStability, S13_ParametersThatChangeEveryFrameDoNoHarm)
         background.partition.max_cluster_size = frame % 2 == 0 ? 1 : 256;
         background.partition.max_breadth = frame % 3 == 0 ? 0.5 : 2;
         ASSERT_EQ(simulation.change_region(background), Problems{});
-        ASSERT_LE(simulation.step({}).counts.reformed_members, count);
+        expect_at_most("members formed anew in a frame, of 2000",
+                       double(simulation.step({}).counts.reformed_members), count);
         ASSERT_EQ(simulation.problems(), Problems{}) << "frame " << frame;
     }
-    EXPECT_LE((momentum() - before).norm(), 1e-12 * count);
+    expect_at_most("change of the momentum per particle", (momentum() - before).norm() / count, 1e-12);
     EXPECT_EQ(simulation.particles().size(), count);
 }
 
@@ -252,15 +270,16 @@ TEST(SlodStability, S14_AThousandRegionsCostNoMoreThanTwiceWhatTenDo)
 {
     const double few = tests_per_cluster(10, false), many = tests_per_cluster(1000, false);
     EXPECT_GT(few, 0);
-    EXPECT_LE(many, 2 * few);
+    expect_at_most("questions per cluster among 1000 regions over those among 10", many / few, 2);
 }
 
 // Where sizes differ by a factor of 100 ten regions are too few to compare with.
 TEST(SlodStability, S14_AThousandRegionsOfAllSizesCostNoMoreThanTwiceWhatAThousandOfOneSizeDo)
 {
     const double alike = tests_per_cluster(1000, false), of_all_sizes = tests_per_cluster(1000, true);
-    EXPECT_LE(of_all_sizes, 2 * alike);
-    RecordProperty("tests_per_cluster", std::to_string(alike) + ", " + std::to_string(of_all_sizes));
+    expect_at_most("questions per cluster among 1000 of all sizes over those of one size",
+                   of_all_sizes / alike, 2);
+    report_value("questions per cluster among 1000 of one size", alike);
 }
 
 TEST(SlodStability, S15_OfEqualRegionsTheEarlierOneTakesAll)
@@ -271,10 +290,10 @@ TEST(SlodStability, S15_OfEqualRegionsTheEarlierOneTakesAll)
     const auto held_by = [&](const char* name) {
         return load_of(simulation, run(simulation, 4), name).particles;
     };
-    EXPECT_GT(held_by("first"), 900U);
-    EXPECT_EQ(held_by("second"), 0U);
+    expect_at_least("particles of 1000 in the earlier region", double(held_by("first")), 901);
+    expect_at_most("particles of 1000 in the later region", double(held_by("second")), 0);
     ASSERT_EQ(simulation.remove_region("first"), Problems{});
-    EXPECT_GT(held_by("second"), 900U);
+    expect_at_least("particles in the later region without the earlier one", double(held_by("second")), 901);
     ASSERT_EQ(simulation.add_region(settings.regions[0]), Problems{});
     EXPECT_EQ(held_by("first"), 0U) << "the later one";
 }
@@ -289,14 +308,14 @@ TEST(SlodStability, S16_WhatADeletedRegionHeldIsAdoptedAtOnce)
     ASSERT_EQ(simulation.remove_region("crowded"), Problems{});
     const Snapshot& snapshot = simulation.step({});
     ASSERT_EQ(snapshot.regions.size(), 1U);
-    EXPECT_EQ(snapshot.regions[0].particles, count);
+    expect_within("particles adopted in the next frame", double(snapshot.regions[0].particles), count, count);
     // Its clusters of 8 flood leaves of at most 1.4 * 4 * 64 members, which are divided at once: each looks
     // at no more than the others of its leaf, in the three turns until they are merged to 64, fewer each
     // time.
     std::uint64_t pair_tests = snapshot.counts.pair_tests;
     for (int frame = 0; frame < 48; ++frame)
         pair_tests += simulation.step({}).counts.pair_tests;
-    EXPECT_LE(pair_tests, count / 8 * 45 * 2);
+    expect_at_most("pairs looked at in the next 48 frames", double(pair_tests), count / 8 * 45 * 2);
     EXPECT_GT(pair_tests, 0U);
     EXPECT_EQ(simulation.problems(), Problems{});
 }
@@ -312,8 +331,10 @@ TEST(SlodStability, S16_ItIsSoWhereClustersChangePoolsInTurnsToo)
     run(simulation, 40);
     ASSERT_GT(load_of(simulation, simulation.snapshot({}), "crowded").particles, 100U);
     ASSERT_EQ(simulation.remove_region("crowded"), Problems{});
+    std::size_t left = 0;
     for (const std::uint16_t region : simulation.step({.clusters = true}).clusters.region)
-        ASSERT_EQ(region, background_row);
+        left += region == background_row ? 0 : 1;
+    expect_at_most("clusters left in the next frame where pools are changed in turns", double(left), 0);
 }
 
 } // namespace
