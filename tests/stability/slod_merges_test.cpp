@@ -308,6 +308,32 @@ TEST(SlodStability, S04_WhereVelocitiesCollapseTheLimitHoldsForEachMergeAndNotFo
     expect_at_least("degrees that the first is off where they collapse", turn / degree, 36);
 }
 
+// In a crowded leaf a cluster gathers as many as it may at once, which are measured by the ball around all
+// their velocities. Those are rounded to float within a cluster, which is a millionth of a degree.
+TEST(SlodStability, S04_InACrowdNoTwoMembersExceedTheLimit)
+{
+    ParticleSet particles = ball(4000, 1, 0.4, 4);
+    for (Particle& particle : particles)
+        particle.velocity.x() += 1;
+    RegionSettings region{.max_cluster_size = 64, .speed_ratio = 1.5, .angle_deg = 30};
+    region.velocity_reference = VelocityReference::Rest;
+    RigidWorld world({.background = region, .regions = {}}, particles, true);
+    world.advance(60);
+    double widest = 0, fastest = 0;
+    for (const ClusterSlot slot : world.alive()) {
+        const ParticleSet members = world.members(slot);
+        for (const Particle& a : members)
+            for (const Particle& b : members) {
+                const double cosine = a.velocity.normalized().dot(b.velocity.normalized());
+                widest = std::max(widest, std::acos(std::min(1.0, cosine)) / degree);
+                fastest = std::max(fastest, a.velocity.norm() / b.velocity.norm());
+            }
+    }
+    expect_at_most("clusters of a crowd of 4000", double(world.alive().size()), 2000);
+    expect_at_most("angle between two members in a crowd", widest, 30 + 1e-4);
+    expect_at_most("ratio of the speeds of two members in a crowd", fastest, 1.5 + 1e-5);
+}
+
 TEST(SlodStability, S21_CounterStreamingJetsNeverMerge)
 {
     ParticleSet particles = cube(2000, 1, 1);

@@ -290,6 +290,7 @@ TEST(SlodStability, S15_OfEqualRegionsTheEarlierOneTakesAll)
     const auto held_by = [&](const char* name) {
         return load_of(simulation, run(simulation, 4), name).particles;
     };
+    EXPECT_EQ(simulation.regions().front().settings.name, "first");
     expect_at_least("particles of 1000 in the earlier region", double(held_by("first")), 901);
     expect_at_most("particles of 1000 in the later region", double(held_by("second")), 0);
     ASSERT_EQ(simulation.remove_region("first"), Problems{});

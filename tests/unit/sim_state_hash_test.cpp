@@ -183,6 +183,16 @@ TEST(StateHash, SeesAClusterMoreOrLessAndOneInAnotherSlot)
     state.world.store.clusters.count[3] = 6;
     test::form(state.world.store, test::ball(2, 1, 1, 9));
     EXPECT_NE(state.hash(), before);
+
+    // Alike but for the slot.
+    test::World first({MapKind::Identity, 0, 1}, {}, {}, 4), second({MapKind::Identity, 0, 1}, {}, {}, 4);
+    const ParticleSet particles = test::ball(6, 1, 1, 1);
+    test::form(first.store, particles);
+    const ClusterSlot left = test::form(second.store, particles), other = test::form(second.store, particles);
+    second.store.clusters.free_slot(left);
+    second.store.clusters.formation[other.index] = first.store.clusters.formation[0];
+    second.store.clusters.generation[other.index] = first.store.clusters.generation[0];
+    EXPECT_NE(hash_state(first.store, first.tree, {}), hash_state(second.store, second.tree, {}));
 }
 
 } // namespace
