@@ -53,7 +53,7 @@ std::string plot_script(const test::CasePicture& picture, const std::string& nam
         script +=
             std::string("set logscale ") + (picture.log_x ? "x" : "") + (picture.log_y ? "y" : "") + "\n";
     return script + "set terminal svg size 640,400 name '" + name + "'\nset output " +
-           gnuplot_quoted(file.string()) + "\nset grid\nset title " + quoted(picture.title) +
+           gnuplot_quoted(file.string()) + "\nset grid\nset key below\nset title " + quoted(picture.title) +
            "\nset xlabel " + quoted(picture.x_axis) + "\nset ylabel " + quoted(picture.y_axis) + "\n" +
            curves + "\nset output\n";
 }
