@@ -100,7 +100,7 @@ double error_in_a_shear(double drift_limit)
 }
 
 // Merged and split again and again, a particle is off by no more than the drift of each of the clusters it
-// was in: here that comes to a seventh of what shear makes of clusters that stay.
+// was in: here that comes to less than a fifth of what shear makes of clusters that stay.
 TEST(SlodStability, S20_InStraightFlightWhatDriftsApartIsSplit)
 {
     expect_at_most("error in a shear over that of clusters that stay",
