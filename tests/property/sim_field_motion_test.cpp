@@ -6,8 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.hpp"
-#include "support/clouds.hpp"
+#include "support/case_rows.hpp"
 #include "support/default_fields.hpp"
+#include "support/one_cluster.hpp"
 #include "support/small_scenes.hpp"
 
 // How particles move in each effect of place, against what its differential equation gives: exactly where the
@@ -20,10 +21,7 @@ constexpr double rounding = 0x1p-52;
 template <class F>
 SimulationSettings settings_with(const typename F::Settings& element)
 {
-    SimulationSettings settings = quiet_settings();
-    settings.background.max_cluster_size = 96; // clusters are formed at seven tenths of it
-    settings.background.pool_factor = 4;
-    settings.background.max_breadth = 64;
+    SimulationSettings settings = settings_for({});
     add_element(settings.fields.of<F>(), element);
     return settings;
 }
@@ -31,22 +29,6 @@ SimulationSettings settings_with(const typename F::Settings& element)
 ParticleSet one(const Vector3d& position, const Vector3d& velocity)
 {
     return {{position, velocity, 0, 1}};
-}
-
-/// 64 particles within `radius` of the place in position and velocity, their mean there.
-ParticleSet sixty_four(const Vector3d& position, const Vector3d& velocity, double radius)
-{
-    ParticleSet all = ball(64, radius, radius, 3, position);
-    Vector3d mean(0, 0, 0), mean_velocity(0, 0, 0);
-    for (Particle& particle : all) {
-        mean += particle.position / 64;
-        mean_velocity += particle.velocity / 64;
-    }
-    for (Particle& particle : all) {
-        particle.position += position - mean;
-        particle.velocity += velocity - mean_velocity;
-    }
-    return all;
 }
 
 Particle run_one(const SimulationSettings& settings, const ParticleSet& initial, int frames)
@@ -59,7 +41,7 @@ Particle run_one(const SimulationSettings& settings, const ParticleSet& initial,
 
 // Kicks and drifts in a linear field are a rotation by theta, cos theta = 1 - k h^2 / 2, sheared: after n
 // frames x = x0 cos n theta + v0 h sin n theta / sin theta.
-TEST(SpringMotion, IsTheHarmonicOneForEveryMemberOfACluster)
+TEST(SpringMotion, F26_IsTheHarmonicOneForEveryMemberOfACluster)
 {
     constexpr int frames = 200;
     const double stiffness = 9;
@@ -73,17 +55,19 @@ TEST(SpringMotion, IsTheHarmonicOneForEveryMemberOfACluster)
     };
     const ParticleSet alone = one({2, 1, 1}, {0.3, -0.2, 0.1});
     // A frame adds some eight roundings of coordinates below 4, and turns those before.
-    EXPECT_LE((run_one(settings, alone, frames).position - expected(alone.front())).norm(),
-              frames * 32 * rounding);
+    expect_at_most("distance from the closed form, one particle",
+                   (run_one(settings, alone, frames).position - expected(alone.front())).norm(),
+                   frames * 32 * rounding);
 
-    const ParticleSet many = sixty_four({2, 1, 1}, {0.3, -0.2, 0.1}, 0.5);
+    const ParticleSet many = about(64, {2, 1, 1}, {0.3, -0.2, 0.1}, 0.5);
     Simulation simulation(settings, many, {});
     EXPECT_EQ(simulation.snapshot({}).counts.clusters, 1U);
     for (int frame = 0; frame < frames; ++frame)
         simulation.step({});
     // Maps and offsets are rounded to float: four operations a frame on offsets of 1 at most.
     for (const Particle& particle : simulation.particles())
-        EXPECT_LE((particle.position - expected(many[particle.id - 1])).norm(), frames * 4 * 0x1p-24);
+        expect_at_most("distance from the closed form, members",
+                       (particle.position - expected(many[particle.id - 1])).norm(), frames * 4 * 0x1p-24);
 }
 
 // On a circle the leapfrog turns by theta, cos theta = 1 - w^2 h^2 / 2, if it is started at r sin theta / h.
@@ -106,7 +90,7 @@ TEST(AttractorMotion, StaysOnACircleForAHundredTurns)
 
 // In the core the acceleration is linear, i k z of a complex place: z = z0 cosh n l + v0 h sinh n l / sinh l
 // with cosh l = 1 + i k h^2 / 2.
-TEST(VortexMotion, SpiralsOutOfTheCore)
+TEST(VortexMotion, F08_SpiralsOutOfTheCore)
 {
     const VortexSettings vortex{.strength = 2e8, .core_radius = 1e4};
     const SimulationSettings settings = settings_with<Vortex>(vortex);
@@ -120,7 +104,8 @@ TEST(VortexMotion, SpiralsOutOfTheCore)
     const Particle end =
         run_one(settings, one({z0.real(), z0.imag(), 0.3}, {v0.real(), v0.imag(), 0}), frames);
     // The core is not wholly linear: by (r / core)^2 with r below 4; acosh near 1 loses half its digits.
-    EXPECT_LE(std::abs(Complex(end.position.x(), end.position.y()) - expected), 4 * 16e-8 + 1e-7);
+    expect_at_most("distance from the closed form",
+                   std::abs(Complex(end.position.x(), end.position.y()) - expected), 4 * 16e-8 + 1e-7);
     EXPECT_EQ(end.position.z(), 0.3);
 }
 
@@ -134,16 +119,20 @@ TEST(BuoyancyMotion, RisesLikeAParabolaInDeepWater)
     EXPECT_NEAR(end.position.x(), time, 64 * 16 * rounding);
 }
 
-// F29. The leapfrog's energy is off by (w h)^2 / 8 of the largest energy at most, w^2 the steepest lift's
+// The leapfrog's energy is off by (w h)^2 / 8 of the largest energy at most, w^2 the steepest lift's
 // slope, 1.5 lift / transition; with drag it is no less off.
-TEST(BuoyancyMotion, BobsWithAnEnergyThatDragOnlyTakes)
+TEST(BuoyancyMotion, F29_BobsWithAnEnergyThatDragOnlyTakes)
 {
     const BuoyancySettings water{.lift = 20, .transition = 1};
     SimulationSettings settings = settings_with<Buoyancy>(water);
     settings.uniform_gravity = UniformGravitySettings{{0, 0, -10}};
     settings.linear_drag = LinearDragSettings{0.5};
+    CasePicture picture{.title = "Bobbing in water with drag",
+                        .x_axis = "time",
+                        .y_axis = "energy per mass, length^2 / time^2",
+                        .curves = {}};
     for (const ParticleSet& initial :
-         {one({0, 0, 1.5}, {0, 0, 0}), sixty_four({0, 0, 1.5}, {0, 0, 0}, 0.02)}) {
+         {one({0, 0, 1.5}, {0, 0, 0}), about(64, {0, 0, 1.5}, {0, 0, 0}, 0.02)}) {
         Simulation simulation(settings, initial, {});
         const double h = settings.time.step, mass = double(initial.size());
         const auto energy = [&] {
@@ -151,17 +140,24 @@ TEST(BuoyancyMotion, BobsWithAnEnergyThatDragOnlyTakes)
             return (now.conserved.kinetic_energy + now.potential_energy) / mass;
         };
         double least = energy();
+        std::vector<double> time, energies;
         const double tolerance = 30 * h * h / 8 * (least + 5); // the energy at rest is above -5
         for (int frame = 0; frame < 2000; ++frame) {
             simulation.step({});
             const double now = energy();
-            ASSERT_LE(now, least + tolerance) << frame;
+            expect_at_most("energy gained over the least so far, of 15", now - least, tolerance);
             least = std::min(least, now);
+            if (frame < 600) {
+                time.push_back(frame * h);
+                energies.push_back(now);
+            }
         }
         // Half of it is under water where gravity and lift cancel; drag has taken exp(-k t / 2), 4e-4.
         for (const Particle& particle : simulation.particles())
-            EXPECT_NEAR(particle.position.z(), 0, 0.001);
+            expect_at_most("height at rest off the level", std::abs(particle.position.z()), 0.001);
+        picture.curves.push_back({initial.size() == 1 ? "one particle" : "64 in a cluster", time, energies});
     }
+    report_picture(picture);
 }
 
 template <class F>
@@ -171,19 +167,19 @@ TYPED_TEST_SUITE(MotionIn, TestTypes<ForceFields>::Types, FieldName);
 
 // Were the mass of the cluster taken for that of a particle, it would be 64 times as fast. Members within
 // 1e-3 move it by second derivatives of order 1 to 10, times half the square.
-TYPED_TEST(MotionIn, CarriesAClusterOf64AsOneParticle)
+TYPED_TEST(MotionIn, F03_CarriesAClusterOf64AsOneParticle)
 {
     const SimulationSettings settings = settings_with<TypeParam>({});
     const Vector3d x(0.6, 0.5, 0.1), v(0.2, -0.1, 0.15);
     const Particle alone = run_one(settings, one(x, v), 100);
-    Simulation simulation(settings, sixty_four(x, v, 1e-3), {});
+    Simulation simulation(settings, about(64, x, v, 1e-3), {});
     EXPECT_EQ(simulation.snapshot({}).counts.clusters, 1U);
     for (int frame = 0; frame < 100; ++frame)
         simulation.step({});
     Vector3d centre(0, 0, 0);
     for (const Particle& particle : simulation.particles())
         centre += particle.position / 64;
-    EXPECT_LE((centre - alone.position).norm(), 1e-5);
+    expect_at_most("distance of the centre from one particle", (centre - alone.position).norm(), 1e-5);
     EXPECT_GT((alone.position - x - 100 * settings.time.step * v).norm(), 0.05) << "it does not only drift";
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "sim/simulation.hpp"
+#include "support/case_rows.hpp"
 #include "support/default_fields.hpp"
 #include "support/pair_error.hpp"
 #include "support/small_scenes.hpp"
@@ -201,8 +202,8 @@ TEST(QuadraticDragInAScene, OfNoStrengthIsAsIfAbsentToTheBit)
     EXPECT_NE(hash_of(scene), without);
 }
 
-// F03: of a cluster of 64 as of one particle, in linear and quadratic drag.
-TEST(QuadraticDragInAScene, BringsAClusterOf64ToTheTerminalVelocity)
+// Of a cluster of 64 as of one particle, in linear and quadratic drag.
+TEST(QuadraticDragInAScene, F03_BringsAClusterOf64ToTheTerminalVelocity)
 {
     SmallScene scene{"falling", quiet_settings(), {}};
     scene.settings.background.max_cluster_size = 96;
@@ -218,7 +219,7 @@ TEST(QuadraticDragInAScene, BringsAClusterOf64ToTheTerminalVelocity)
     // 0.6 w + 0.2 w^2 = 10; transients are e^(-2.9 * 15) of the start's.
     const Vector3d terminal(0, 0, 1.5 - std::sqrt(1.5 * 1.5 + 50));
     for (const Particle& particle : simulation.particles())
-        EXPECT_LE((particle.velocity - terminal).norm(), 1e-9);
+        expect_at_most("distance from the terminal velocity", (particle.velocity - terminal).norm(), 1e-9);
 }
 
 // Lives are powers of two from 2 to 16 frames. At k = 0.3 and gradients of some 3 amplitudes, eddies of 0.01

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "effects/collider_settings.hpp"
@@ -36,6 +39,30 @@ Mesh grid_mesh(std::uint32_t columns, std::uint32_t rows, double spacing, const 
 inline Mesh flat_mesh(std::uint32_t columns, std::uint32_t rows, double spacing)
 {
     return grid_mesh(columns, rows, spacing, [](std::uint32_t, std::uint32_t) { return 0.0; });
+}
+
+/// Of the vertex in that column and row of a hilly mesh.
+inline double hill(int column, int row)
+{
+    return 0.1 * ((column * 7 + row * 5) % 4);
+}
+
+/// 8 by 8 squares with sides of a half, and hills of up to 0.3.
+inline Mesh hilly_mesh()
+{
+    return grid_mesh(9, 9, 0.5, [](auto x, auto y) { return hill(int(x), int(y)); });
+}
+
+/// Of the hilly mesh, below or above `x`; none beside it.
+inline std::optional<double> hilly_height(const Vector3d& x)
+{
+    const int column = int(std::floor(2 * x.x())), row = int(std::floor(2 * x.y()));
+    if (column < 0 || column > 7 || row < 0 || row > 7)
+        return {};
+    const double along = 2 * x.x() - column, up = 2 * x.y() - row;
+    const double corner = hill(column, row), far = hill(column + 1, row + 1);
+    const double side = along > up ? hill(column + 1, row) : hill(column, row + 1);
+    return corner + std::max(along, up) * (side - corner) + std::min(along, up) * (far - side);
 }
 
 /// The twelve triangles of a box about the origin.

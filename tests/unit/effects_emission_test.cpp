@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/emission.hpp"
+#include "support/case_rows.hpp"
 #include "support/little_worlds.hpp"
 
 namespace slod {
@@ -110,12 +111,13 @@ TEST(Emission, EmittersDoNotMixTheirParticles)
     }
 }
 
-TEST(Emission, AHundredThousandInAFrameAreDividedIntoFullClusters)
+TEST(Emission, F31_AHundredThousandInAFrameAreDividedIntoFullClusters)
 {
     Fountain fountain({jet(100'000)});
     fountain.advance();
     EXPECT_EQ(fountain.born, 100'000U);
-    EXPECT_EQ(fountain.world.store.clusters.alive_count(), 1563U); // ceil of 1e5 / 64
+    // No more than the ceiling of 1e5 / 64.
+    test::expect_at_most("clusters of 64", double(fountain.world.store.clusters.alive_count()), 1563);
     for (const std::uint32_t count : fountain.world.store.clusters.count) {
         EXPECT_LE(count, 64U);
         EXPECT_GE(count, 63U);
@@ -203,7 +205,7 @@ TEST(Emission, AKickedNewbornThatJoinsGetsTheRestOfItsOwnTime)
 }
 
 // The first particles of a frame find room, in the order of the emitters; numbers go on as if all had come.
-TEST(Emission, WhatThereIsNoRoomForIsRefusedAndCounted)
+TEST(Emission, F31_WhatThereIsNoRoomForIsRefusedAndCounted)
 {
     Fountain bounded({jet(5), jet(3)}), free({jet(5), jet(3)});
     bounded.most = 20;
@@ -211,7 +213,7 @@ TEST(Emission, WhatThereIsNoRoomForIsRefusedAndCounted)
         bounded.advance();
         free.advance();
     }
-    EXPECT_EQ(bounded.born, 20U);
+    test::expect_within("born where 20 find room", double(bounded.born), 20, 20);
     EXPECT_EQ(bounded.refused, free.born - 20);
     const ParticleSet some = test::members(bounded.world.store, bounded.frame),
                       all = test::members(free.world.store, free.frame);
@@ -223,12 +225,12 @@ TEST(Emission, WhatThereIsNoRoomForIsRefusedAndCounted)
 }
 
 // Far more particles than memory holds are asked for in one frame.
-TEST(Emission, AnAbsurdRateTakesNoMoreMemoryThanThereIsRoomFor)
+TEST(Emission, F31_AnAbsurdRateTakesNoMoreMemoryThanThereIsRoomFor)
 {
     Fountain flood({jet(1e12)});
     flood.most = 1000;
     flood.advance();
-    EXPECT_EQ(flood.born, 1000U);
+    test::expect_within("born where 1000 find room", double(flood.born), 1000, 1000);
     EXPECT_NEAR(double(flood.refused), 1e12, 1e4);
 }
 

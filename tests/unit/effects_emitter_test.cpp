@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/emitter.hpp"
+#include "support/case_rows.hpp"
 
 namespace slod {
 namespace {
@@ -43,7 +44,7 @@ std::vector<Newborn> emit(const Emitter& emitter, std::uint64_t frames, double f
     return all;
 }
 
-TEST(Emitter, AFractionalRateIsMetToOneParticleAtEveryTime)
+TEST(Emitter, F33_AFractionalRateIsMetToOneParticleAtEveryTime)
 {
     for (const double per_frame : {0.3, 0.001, 1.0, 7.7, 1234.5}) {
         EmitterSettings settings = jet();
@@ -52,7 +53,8 @@ TEST(Emitter, AFractionalRateIsMetToOneParticleAtEveryTime)
         std::vector<Newborn> all;
         for (std::uint64_t frame = 1; frame <= 200; ++frame) {
             emitter.emit(frame, step, {}, unlimited, all);
-            ASSERT_LE(std::abs(double(all.size()) - per_frame * double(frame)), 1) << "frame " << frame;
+            test::expect_at_most("particles too many or too few",
+                                 std::abs(double(all.size()) - per_frame * double(frame)), 1);
             ASSERT_EQ(all.size(), emitter.count_before(double(frame) * step));
         }
     }
@@ -75,11 +77,11 @@ TEST(Emitter, TheFirstParticleStartsAtTheStartAndTheLastBeforeTheStop)
     EXPECT_EQ(emitter_of(settings).count_before(10), 0U);
 }
 
-TEST(Emitter, WithoutARateNothingIsEmitted)
+TEST(Emitter, F34_WithoutARateNothingIsEmitted)
 {
     EmitterSettings settings = jet();
     settings.rate = 0;
-    EXPECT_TRUE(emit(emitter_of(settings), 100).empty());
+    test::expect_at_most("particles", double(emit(emitter_of(settings), 100).size()), 0);
 }
 
 TEST(Emitter, IdsAreUniqueToTheEmitterAndInOrderOfBirth)
@@ -213,7 +215,7 @@ TEST(Emitter, OnlyTheDirectionOfTheDirectionCounts)
     }
 }
 
-TEST(Emitter, AParticleIsThereAtTheFramesEndsWithinItsLifetime)
+TEST(Emitter, F34_AParticleIsThereAtTheFramesEndsWithinItsLifetime)
 {
     for (const double lifetime : {0.0, 0.001, step / 2, step, 3.3 * step, 1000.0, infinity}) {
         EmitterSettings settings = jet();
@@ -232,8 +234,8 @@ TEST(Emitter, AParticleIsThereAtTheFramesEndsWithinItsLifetime)
                     continue;
                 }
                 // The last frame's end that it lives to see is the one before it expires.
-                ASSERT_GE(double(born.particle.expiry_frame) * step, death - 1e-9);
-                ASSERT_LE(double(born.particle.expiry_frame - 1) * step, death + 1e-9);
+                const double last = double(born.particle.expiry_frame) * step;
+                test::expect_within("frames from death to expiry", (last - death) / step, -1e-7, 1 + 1e-7);
             }
         }
         EXPECT_EQ(started == 0, lifetime == 0) << lifetime;

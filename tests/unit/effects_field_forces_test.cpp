@@ -5,6 +5,7 @@
 #include "effects/fields/attractor.hpp"
 #include "effects/fields/field_set.hpp"
 #include "effects/fields/spring.hpp"
+#include "support/case_rows.hpp"
 #include "support/field_at.hpp"
 
 // Accelerations of place against their closed forms.
@@ -19,11 +20,10 @@ TEST(Attractor, PullsByTheInverseSquareOfASoftenedDistance)
     EXPECT_LE((far.value - Vector3d(-5 * 3 / 125.0, 0, 0)).norm(), field_tolerance);
 }
 
-// F09
-TEST(Attractor, DoesNotPullWhatIsAtItsPlace)
+TEST(Attractor, F09_DoesNotPullWhatIsAtItsPlace)
 {
     const FieldValue here = field_at<Attractor>({.position = {1, 2, 3}, .softening = 0.1}, {1, 2, 3});
-    EXPECT_EQ(here.value, Vector3d(0, 0, 0));
+    expect_at_most("acceleration", here.value.norm(), 0);
     EXPECT_NEAR(here.gradient.trace(), -3 / 1e-3, 3e3 * field_tolerance);
 }
 
@@ -50,19 +50,21 @@ TEST(Attractor, FadesTowardsItsRadiusAndIsNothingBeyond)
     EXPECT_EQ(field_at<Attractor>(bounded, {1.5, 1.5, 0}).value, Vector3d(0, 0, 0));
 }
 
-// F27
-TEST(Spring, OfNoLengthPullsNothing)
+TEST(Spring, F27_OfNoLengthPullsNothing)
 {
-    EXPECT_EQ(field_at<Spring>({.anchor = {1, 2, 3}, .stiffness = 1e6}, {1, 2, 3}).value, Vector3d(0, 0, 0));
+    expect_at_most("acceleration",
+                   field_at<Spring>({.anchor = {1, 2, 3}, .stiffness = 1e6}, {1, 2, 3}).value.norm(), 0);
 }
 
-// F26: kicks at the ends of a frame are stable up to angular frequency 2 / step; beyond, the scene is
-// refused.
-TEST(Spring, TooStiffForTheStepIsRefused)
+// Kicks at the ends of a frame are stable up to an angular frequency of 2 / step.
+TEST(Spring, F26_TooStiffForTheStepIsRefused)
 {
     const double step = 0.25;
     EXPECT_TRUE(Spring::problems({.stiffness = 63.9}, step).empty());
-    EXPECT_FALSE(Spring::problems({.stiffness = 64}, step).empty());
+    int refused = 0;
+    for (const double turn : {2.0, 100.0}) // in a frame
+        refused += Spring::problems({.stiffness = turn * turn / (step * step)}, step).empty() ? 0 : 1;
+    expect_at_least("springs of w dt = 2 and 100 refused", refused, 2);
 }
 
 TEST(FieldSet, SumsItsElementsWhateverTheirOrder)

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "support/falling_particle.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
@@ -139,6 +140,7 @@ TEST(MovingWall, LeavesWhatIsBlownOffAFloorBesideItAlone)
 TEST(MovingWall, F10_PassesNobody)
 {
     const ColliderSettings wall = sheet(flat_mesh(41, 41, 1), 1e-3);
+    int passed = 0;
     for (const double speed : {200.0, 1e4}) {
         Colliders colliders({moving(with(wall, 0.5, 0), {0, 0, speed})}, {}, frame);
         Random random(2, 0, 0);
@@ -148,10 +150,11 @@ TEST(MovingWall, F10_PassesNobody)
             if (i % 2 == 0) // onto a vertex
                 state = {{std::round(state.position.x()), std::round(state.position.y()), 1}, {0, 0, 0}};
             state = flown(colliders, state, 1);
-            ASSERT_GT(state.position.z(), speed * frame) << "particle " << i << " at speed " << speed;
+            passed += state.position.z() > speed * frame ? 0 : 1;
             ASSERT_GT(state.velocity.z(), 1.4 * speed) << "particle " << i << " at speed " << speed;
         }
     }
+    expect_at_most("particles passed", passed, 0);
 }
 
 TEST(MovingColliders, NeverMissAClusterWhoseMemberTouches)

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "support/falling_particle.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
@@ -86,13 +87,15 @@ protected:
         const Colliders on_mesh(mesh(restitution, friction), fields, frame);
         const Colliders on_plane(floor(restitution, friction), fields, frame);
         State a{turn_ * start.position, turn_ * start.velocity}, b = a;
+        double apart = 0;
         for (int i = 0; i < frames; ++i) {
             const auto met = on_mesh.fly(a.position, a.velocity, frame);
             on_plane.fly(b.position, b.velocity, frame);
             ASSERT_FALSE(met.cut_off) << "frame " << i;
-            ASSERT_LE((a.position - b.position).norm(), (seams + 1) * 3e-14) << "frame " << i;
             ASSERT_LE((a.velocity - b.velocity).norm(), (seams + 1) * 3e-14 / frame) << "frame " << i;
+            apart = std::max(apart, (a.position - b.position).norm());
         }
+        expect_at_most("distance from one on a plane", apart, (seams + 1) * 3e-14);
     }
 
     const Matrix3d turn_ = GetParam()
@@ -153,23 +156,6 @@ struct Wall {
     double speed, thickness;
 };
 
-double hills(int x, int y)
-{
-    return 0.1 * ((x * 7 + y * 5) % 4);
-}
-
-/// Of a grid of 8 by 8 squares with sides of a half, below or above `x`; none beside it.
-std::optional<double> height_of(double (&height)(int, int), const Vector3d& x)
-{
-    const int column = int(std::floor(2 * x.x())), row = int(std::floor(2 * x.y()));
-    if (column < 0 || column > 7 || row < 0 || row > 7)
-        return {};
-    const double along = 2 * x.x() - column, up = 2 * x.y() - row;
-    const double corner = height(column, row), far = height(column + 1, row + 1);
-    const double side = along > up ? height(column + 1, row) : height(column, row + 1);
-    return corner + std::max(along, up) * (side - corner) + std::min(along, up) * (far - side);
-}
-
 /// On a vertex, on an edge or within the triangle, in turn, and at times off by a little.
 Vector3d aim_at(const Mesh& mesh, int i, Random& random)
 {
@@ -183,7 +169,8 @@ Vector3d aim_at(const Mesh& mesh, int i, Random& random)
 // Aimed at any place, at edges and at vertices, exactly and less so, from both sides.
 TEST(ThinSheet, F10_LetsNoneThrough)
 {
-    const Mesh mesh = grid_mesh(9, 9, 0.5, [](auto x, auto y) { return hills(int(x), int(y)); });
+    const Mesh mesh = hilly_mesh();
+    int through = 0;
     for (const Wall& wall : {Wall{200, 0.1}, Wall{1e4, 1e-3}, Wall{1e4, 1e-5}}) {
         const Colliders colliders({with(sheet(mesh, wall.thickness), 0.5, 0.1)}, falling(), frame);
         Random random(4, 0, 0);
@@ -198,13 +185,13 @@ TEST(ThinSheet, F10_LetsNoneThrough)
             State state{aim + 0.6 * direction, -wall.speed * direction};
             const auto met = colliders.fly(state.position, state.velocity, 1.2 / wall.speed);
             ASSERT_GE(met.impacts, 1U) << "particle " << i << " at speed " << wall.speed;
-            const std::optional<double> ground = height_of(hills, state.position);
+            const std::optional<double> ground = hilly_height(state.position);
             if (!ground)
                 continue;
-            ASSERT_GT(side * (state.position.z() - *ground), 0)
-                << "particle " << i << " at speed " << wall.speed;
+            through += side * (state.position.z() - *ground) > 0 ? 0 : 1;
         }
     }
+    expect_at_most("particles through", through, 0);
 }
 
 // Elastic bounces over hills; each rounds energies of about 30 some tens of times.
@@ -230,7 +217,8 @@ TEST(HillySheet, F12_KeepsTheEnergyOfElasticBounces)
             ASSERT_FALSE(met.cut_off);
         }
         // What bounces so low that it rests, for a frame or for good, loses no more than that.
-        EXPECT_NEAR(energy(state), before, 1e-11 * impacts * before) << "particle " << i;
+        expect_at_most("error of the energy per impact, share",
+                       std::abs(energy(state) / before - 1) / impacts, 1e-11);
         EXPECT_GT(impacts, 10U);
         EXPECT_GT(state.position.z(), 0);
     }
@@ -303,13 +291,16 @@ TEST(ThinSheet, F20_PutsWhatStartsInsideOntoItsNearerSideWithoutSpeed)
 {
     const Colliders colliders({sheet(flat_mesh(5, 5, 1), 0.2)}, {}, frame);
     Random random(6, 0, 0);
+    double off = 0, fastest = 0;
     for (int i = 0; i < 2000; ++i) {
         State state{{4 * random.uniform(), 4 * random.uniform(), 0.2 * (random.uniform() - 0.5)}, {0, 0, 0}};
         const double side = state.position.z() > 0 ? 0.1 : -0.1;
         colliders.fly(state.position, state.velocity, frame);
-        ASSERT_NEAR(state.position.z(), side, 1e-14);
-        ASSERT_EQ(state.velocity, Vector3d(0, 0, 0));
+        off = std::max(off, std::abs(state.position.z() - side));
+        fastest = std::max(fastest, state.velocity.norm());
     }
+    expect_at_most("distance from the nearer side after a frame", off, 1e-14);
+    expect_at_most("speed given", fastest, 0);
 }
 
 } // namespace

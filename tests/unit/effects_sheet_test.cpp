@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/colliders.hpp"
+#include "support/case_rows.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
 #include "support/solids.hpp"
@@ -151,9 +152,12 @@ TEST(BoxTree, StopsWhenTheVisitorSaysSo)
 
 TEST(ColliderSettings, F25_AreRefusedWhereTheyLeaveNoSheet)
 {
-    const auto says = [](const ColliderSettings& collider, const std::string& start) {
+    int refused = 0;
+    const auto says = [&](const ColliderSettings& collider, const std::string& start) {
         const Problems found = problems(collider);
-        return found.size() == 1 && found.front().starts_with(start);
+        const bool does = found.size() == 1 && found.front().starts_with(start);
+        refused += does ? 1 : 0;
+        return does;
     };
     ColliderSettings sound = sheet(flat_mesh(2, 2, 100));
     EXPECT_EQ(problems(sound), Problems{});
@@ -170,6 +174,7 @@ TEST(ColliderSettings, F25_AreRefusedWhereTheyLeaveNoSheet)
     faulty.shape = ColliderShape::Heightfield;
     faulty.spacing = 0;
     EXPECT_TRUE(says(faulty, "spacing = 0 leaves no surface; use"));
+    expect_at_least("degenerate sheets refused, of 4", refused, 4);
 }
 
 // A vertex twice, and three in line.
@@ -182,6 +187,7 @@ TEST(ColliderSettings, F25_AreRefusedWhereNoTriangleHasAnArea)
     ASSERT_EQ(found.size(), 1U);
     EXPECT_TRUE(found.front().starts_with("file = \"line.obj\": no triangle in it has an area; give it"))
         << found.front();
+    expect_at_least("meshes without an area refused, of 1", double(found.size()), 1);
     EXPECT_EQ(problems(sheet({vertices, {{0, 0, 3}, {0, 1, 2}, {0, 1, 3}}})), Problems{});
 }
 

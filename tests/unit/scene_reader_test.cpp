@@ -1,7 +1,10 @@
 #include "scene_support.hpp"
 
+#include <type_traits>
+
 #include "core/random.hpp"
 #include "scene/nearest.hpp"
+#include "support/case_rows.hpp"
 
 namespace slod::test {
 
@@ -158,6 +161,44 @@ TEST(SceneReader, NotANumberIsRefusedEverywhereAndInfinityWhereNotAllowed)
     EXPECT_TRUE(only_says(problems_of("[[kind]]\nname=\"a\"\n[background]\nmax_breadth = -inf\n"),
                           {"max_breadth = -inf is out of range"}));
     EXPECT_TRUE(only_says(faulty("[uniform_gravity]\nacceleration = [0, 0, inf]\n"), {"is out of range"}));
+}
+
+/// A value of that type with `number` in it, as it stands in a scene; empty for one that has no numbers.
+template <class T>
+std::string written(const std::string& number)
+{
+    if constexpr (std::is_same_v<T, Vector3d>)
+        return "[1, " + number + ", 1]";
+    else if constexpr (std::is_same_v<T, NumberPairs>)
+        return "[[0, " + number + "]]";
+    else if constexpr (std::is_arithmetic_v<T>)
+        return number;
+    else
+        return {};
+}
+
+// Every number of an emitter, by its list of fields, so that one that is added is tried too.
+TEST(SceneReader, F32_AnEmitterOfNoNumbersIsRefusedKeyByKey)
+{
+    const std::string emitter = minimal_scene + "[[emitter]]\nname = \"e\"\nkind = \"star\"\n";
+    int tried = 0, refused = 0;
+    EmitterSettings settings;
+    for_each_field(settings, [&]<class T>(const Field& field, const T&) {
+        for (const std::string text : {"nan", "inf", "-inf"}) {
+            const std::string line = written<T>(text);
+            if (line.empty() || (text == "inf" && field.infinity_allowed))
+                continue;
+            ++tried;
+            const bool does = one_says(problems_of(emitter + std::string(field.key) + " = " + line + "\n"),
+                                       {"emitter.0." + std::string(field.key) + " = "});
+            EXPECT_TRUE(does) << field.key << " = " << line;
+            refused += does ? 1 : 0;
+        }
+    });
+    EXPECT_GE(tried, 50);
+    expect_at_least("refused, share of those tried", double(refused) / tried, 1);
+    EXPECT_TRUE(
+        only_says(problems_of(emitter + "direction = [0, 0, 0]\n"), {"emitter.0.direction = [0, 0, 0]"}));
 }
 
 TEST(SceneReader, InfinityIsTakenWhereAllowed)

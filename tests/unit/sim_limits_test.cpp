@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.hpp"
+#include "support/case_rows.hpp"
 #include "support/leapfrog.hpp"
 #include "support/small_scenes.hpp"
 
@@ -227,7 +228,7 @@ TEST(Lifetimes, EndOnTimeInClusters)
     expect_deaths_on_time(rigid);
 }
 
-TEST(Lifetimes, OfNoLengthOrNoRateGiveNoParticles)
+TEST(Lifetimes, F34_OfNoLengthOrNoRateGiveNoParticles)
 {
     SimulationSettings settings = attracting(16);
     settings.emitters = {jet("stillborn"), jet("silent")};
@@ -235,7 +236,7 @@ TEST(Lifetimes, OfNoLengthOrNoRateGiveNoParticles)
     settings.emitters[1].rate = 0;
     Simulation simulation(settings, {}, {});
     for (int frame = 0; frame < frame_count; ++frame)
-        EXPECT_EQ(simulation.step({}).counts.particles, 0U);
+        expect_at_most("particles", double(simulation.step({}).counts.particles), 0);
 }
 
 TEST(SimulationStep, HandsOutClustersOfTheFramesTheyAreAskedForInAlone)
