@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/attracting_world.hpp"
+#include "support/case_rows.hpp"
 #include "support/clouds.hpp"
 
 // What the walk of the tree misses beside a direct sum in double, over the shapes that break tree codes.
@@ -51,14 +52,30 @@ TEST_P(GravityAccuracy, G12_ErrorsFallWithTheOpeningAngle)
     AttractingWorld world = world_of(plummer_sphere(20'000, 1));
     ForceErrors wider = geometric_errors(world, 0.9);
     const ForceErrors widest = wider;
+    std::vector<double> angles{0.9}, medians{wider.median}, percentiles{wider.p99};
     for (const double angle : {0.7, 0.5, 0.3}) {
         const ForceErrors errors = geometric_errors(world, angle);
-        EXPECT_LT(errors.median, wider.median) << angle;
-        EXPECT_LT(errors.p99, wider.p99) << angle;
-        EXPECT_LT(errors.largest, wider.largest) << angle;
+        expect_at_most("median error, of that at the next wider angle", errors.median / wider.median, 1);
+        expect_at_most("99th percentile, of that at the next wider angle", errors.p99 / wider.p99, 1);
+        expect_at_most("largest error, of that at the next wider angle", errors.largest / wider.largest, 1);
         wider = errors;
+        angles.push_back(angle);
+        medians.push_back(errors.median);
+        percentiles.push_back(errors.p99);
+        if (angle == 0.5 && GetParam() == Multipoles::Quadrupole) {
+            expect_at_most("median error at the angle 0.5", errors.median, 5e-4);
+            expect_at_most("99th percentile at the angle 0.5", errors.p99, 3e-3);
+            expect_at_most("largest error at the angle 0.5", errors.largest, 1e-2);
+        }
     }
-    EXPECT_LT(9 * wider.median, 1.5 * widest.median); // errors of many nodes cancel at random
+    // Errors of many nodes cancel at random.
+    expect_at_most("median error at 0.3, of that at 0.9", wider.median / widest.median, 1.5 / 9);
+    report_picture({"Walks of a Plummer sphere of 20,000 bodies",
+                    "opening angle",
+                    "relative error of a pull",
+                    {{"median", angles, medians}, {"99th percentile", angles, percentiles}},
+                    true,
+                    true});
 }
 
 TEST_P(GravityAccuracy, ErrorsFallWithTheForceTolerance)
@@ -80,13 +97,13 @@ TEST_P(GravityAccuracy, ErrorsFallWithTheForceTolerance)
 TEST_P(GravityAccuracy, G14_TwoClumpsDoNotDetonate)
 {
     const ForceErrors errors = default_errors(two_clumps(20'000, 1));
-    EXPECT_LE(errors.p99, 1e-2);
-    EXPECT_LE(errors.largest, 3e-2);
+    expect_at_most("99th percentile of the errors", errors.p99, 1e-2);
+    expect_at_most("largest error of a pull", errors.largest, 3e-2);
 }
 
 TEST_P(GravityAccuracy, G22_AMassSpectrumOfAMillionToOneIsNoWorse)
 {
-    EXPECT_LE(default_errors(mass_spectrum(20'000, 2)).p99, 3e-3);
+    expect_at_most("99th percentile of the errors", default_errors(mass_spectrum(20'000, 2)).p99, 3e-3);
 }
 
 // The forces of a uniform box cancel but for a few of them, and so must the errors.
@@ -95,15 +112,17 @@ TEST_P(GravityAccuracy, G31_WhereForcesCancelTheRelativeCriterionKeepsItsPromise
     AttractingWorld world = world_of(cloud(20'000, 3, in_unit_box));
     world.evaluate_again();
     const ForceErrors relative = force_errors(world);
-    EXPECT_LE(relative.p99, 1e-2);
-    EXPECT_LT(2 * relative.p99, geometric_errors(world, 0.7).p99);
+    expect_at_most("99th percentile of the errors", relative.p99, 1e-2);
+    expect_at_most("the same, of that of the geometric criterion at 0.7",
+                   relative.p99 / geometric_errors(world, 0.7).p99, 0.5);
 }
 
 // A node misses at most the tolerance, 1e-3, in one direction; some fifty nodes are near that bound, and
 // add up as a random walk of seven steps, each a few times smaller than its bound.
-TEST_P(GravityAccuracy, G32_ADiscIsAsGoodAsMonopolesAllow)
+TEST_P(GravityAccuracy, G32_ADiscIsAsGoodAsItsNodesAllow)
 {
-    EXPECT_LE(default_errors(cloud(20'000, 4, in_exponential_disc)).rms, 4e-3);
+    const double limit = GetParam() == Multipoles::Quadrupole ? 1.5e-3 : 4e-3;
+    expect_at_most("rms error", default_errors(cloud(20'000, 4, in_exponential_disc)).rms, limit);
 }
 
 // Where the boxes lie changes the nodes, and each walk's errors are its own: their difference is at most
@@ -133,12 +152,14 @@ TEST_P(GravityAccuracy, G30_ShiftsChangeForcesByTheTreesErrorAtMost)
             squares += (there[i] - here[i]).squaredNorm() / here[i].squaredNorm();
             bulk += there[i] / double(here.size());
         }
-        EXPECT_LE(std::sqrt(squares / double(here.size())), 2 * rms) << "shift by " << by.transpose();
+        expect_at_most("rms change of a pull by a shift, of the walk's own error",
+                       std::sqrt(squares / double(here.size())) / rms, 2);
         bulk_sum += bulk / shifts;
         bulk_squares += bulk.squaredNorm() / shifts;
     }
     // The mean of 32 random vectors: their rms over sqrt(32), and that exceeds twice itself once in 10,000.
-    EXPECT_LE(bulk_sum.norm(), 2 * std::sqrt(bulk_squares / shifts));
+    expect_at_most("mean bulk pull of 32 shifts, of the rms one over sqrt(32)",
+                   bulk_sum.norm() / std::sqrt(bulk_squares / shifts), 2);
 }
 
 // A tide falls off faster than the pull by a power of the distance, so that a node misses more of it, by a
@@ -213,8 +234,13 @@ TEST_P(GravityAccuracy, G36_TheFirstStepIsThatOfTheGeometricCriterion)
     geometric.settings.opening = OpeningCriterion::Geometric;
     geometric.settings.opening_angle = 0.5;
     geometric.evaluate();
-    EXPECT_EQ(relative.by_id(), geometric.by_id());
-    EXPECT_LE(force_errors(relative).p99, 1e-2); // of the angle's square, 1 / 4, what is left of fifty nodes
+    const std::vector<Vector3d> found = relative.by_id(), expected = geometric.by_id();
+    std::size_t unlike = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        unlike += found[i] != expected[i] ? 1 : 0;
+    expect_at_most("pulls that are not those of the geometric criterion at 0.5", double(unlike), 0);
+    // Of the angle's square, 1 / 4, what is left of fifty nodes.
+    expect_at_most("99th percentile of the errors", force_errors(relative).p99, 1e-2);
 }
 
 } // namespace
