@@ -20,6 +20,12 @@ Matrix6d whole(const MapBlocks& map)
 
 } // namespace
 
+bool is_worn(const FlowMap& map)
+{
+    constexpr float most = 8;
+    return map.a_minus_1.cwiseAbs().maxCoeff() > most || map.d_minus_1.cwiseAbs().maxCoeff() > most;
+}
+
 void kick(FlowMap& map, double step, const Matrix3d& tide)
 {
     const Matrix3f pull = (step * tide).cast<float>();

@@ -31,6 +31,10 @@ struct FlowMap {
     Matrix3f d_minus_1 = Matrix3f::Zero();
 };
 
+/// Whether the map has stretched offsets or relative velocities by so much, eightfold, that what floats round
+/// is seen in its members, and that they are far beyond where a first order says where they are.
+bool is_worn(const FlowMap& map);
+
 /// Tangent of a kick by `step` in a field with gradient `tide`: v += step * a(x).
 void kick(FlowMap& map, double step, const Matrix3d& tide);
 inline void kick(FlowMap& map, double step, const Symmetric3& tide)

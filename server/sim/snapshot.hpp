@@ -48,7 +48,7 @@ struct EventCount {
 
 /// The only list of them, besides that of effects of place. The other counts (particles, clusters, pools) are
 /// levels: their sum over frames means nothing.
-inline constexpr std::array<EventCount, 31> event_counts{{
+inline constexpr std::array<EventCount, 32> event_counts{{
     {"born", &FrameCounts::born},
     {"births_refused", &FrameCounts::births_refused},
     {"died", &FrameCounts::died},
@@ -60,6 +60,7 @@ inline constexpr std::array<EventCount, 31> event_counts{{
     {"killed", &FrameCounts::killed},
     {"kicked", &FrameCounts::kicked},
     {"due_pools", &FrameCounts::due_pools},
+    {"worn_pools", &FrameCounts::worn_pools},
     {"reformed_members", &FrameCounts::reformed_members},
     {"strays_inserted", &FrameCounts::strays_inserted},
     {"strays_founding", &FrameCounts::strays_founding},

@@ -73,6 +73,7 @@ void Reforming::reserve(const SlodTree& tree, std::size_t particle_count)
 void Reforming::update(SlodTree& tree, std::uint64_t frame, UpdateCounts& counts)
 {
     context_.frame = frame;
+    counts.worn_pools += end_worn_lives(tree);
     merge_sparse_pools(tree);
     start_lives(tree);
     if (!due_.empty())
@@ -90,6 +91,32 @@ void Reforming::reform(SlodTree& tree, UpdateCounts& counts)
     form(tree, Strays::Come);
     counts.due_pools += due_.size();
     counts.reformed_members += grouping_.particles.size();
+}
+
+/// Makes pools due that hold a worn map; returns how many. Tides that grow fast within a life make them.
+std::uint64_t Reforming::end_worn_lives(SlodTree& tree)
+{
+    const ClusterTable& clusters = context_.store.clusters;
+    if (!clusters.columns.map)
+        return 0;
+    std::atomic<bool> any{false};
+    const auto is_worn_out = [&](std::size_t slot) {
+        return clusters.alive(slot) && is_worn(clusters.map[slot]);
+    };
+    for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t slot = first; slot < last; ++slot)
+            if (is_worn_out(slot))
+                any = true;
+    });
+    std::uint64_t ended = 0;
+    for (std::size_t slot = 0; any && slot < clusters.slot_count(); ++slot) {
+        if (!is_worn_out(slot))
+            continue;
+        Pool& pool = tree.pool({clusters.region[slot], clusters.pool[slot]});
+        ended += pool.due_frame > context_.frame ? 1 : 0;
+        pool.due_frame = std::min(pool.due_frame, context_.frame);
+    }
+    return ended;
 }
 
 /// A due pool that has become sparse is merged with its sibling, which is made due with it.

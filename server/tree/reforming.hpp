@@ -13,10 +13,11 @@ namespace slod {
 /// The update of clusters whose flow maps age, in fields that depend on the position. A pool's clusters
 /// are formed together and live a fixed number of frames, after the dynamical clock of the tides there:
 ///   life = clamp(2^round(log2(clock / (step sqrt(|T|)))), shortest, longest).
-/// When it ends, its members are mapped out and go to the pool where they will be in the middle of the
-/// next life: compact then, clusters are too wide as long before as after it, and the errors of near-pair
-/// forces cancel. A pool that is due itself takes them all and is divided anew; in another one a stray
-/// joins the nearest cluster, or founds one with the other strays.
+/// A life also ends as soon as one of the pool's maps is worn. When it ends, its members are mapped out and
+/// go to the pool where they will be in the middle of the next life: compact then, clusters are too wide as
+/// long before as after it, and the errors of near-pair forces cancel. A pool that is due itself takes them
+/// all and is divided anew; in another one a stray joins the nearest cluster, or founds one with the other
+/// strays.
 class Reforming {
 public:
     /// Clusters of a pool that a stray is compared with: a bound for pools that cannot be divided however
@@ -52,6 +53,7 @@ private:
     };
 
     void reform(SlodTree& tree, UpdateCounts& counts);
+    std::uint64_t end_worn_lives(SlodTree& tree);
     void merge_sparse_pools(SlodTree& tree);
     void start_lives(SlodTree& tree);
     void map_out_due(SlodTree& tree);

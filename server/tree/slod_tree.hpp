@@ -100,6 +100,7 @@ void release_velocities(const SlodTree& tree, ClusterTable& clusters);
 /// What one update did.
 struct UpdateCounts {
     std::uint64_t due_pools = 0;        ///< pools whose clusters were re-formed
+    std::uint64_t worn_pools = 0;       ///< of them: before their time, as a map had become too large
     std::uint64_t reformed_members = 0; ///< members mapped out and formed anew
     std::uint64_t strays_inserted = 0;  ///< re-formed members that joined a living cluster
     std::uint64_t strays_founding = 0;  ///< re-formed members that started a cluster in a pool not due

@@ -154,6 +154,30 @@ TEST(Reforming, KeepsTreeParticlesSizesAndLivesInOrderInAnyField)
     }
 }
 
+// As a close passage wears it, of which the pool's clock knew nothing when the life began.
+TEST(Reforming, EndsALifeEarlyWhereAMapIsWorn)
+{
+    Moving moving(test::ball(1000, 3, 2, 1), nothing);
+    const auto pool_of = [&](std::size_t slot) -> const Pool& {
+        return moving.world.tree.pool({moving.clusters().region[slot], moving.clusters().pool[slot]});
+    };
+    const auto lives_on = [&](std::size_t slot) {
+        return moving.clusters().alive(slot) && pool_of(slot).due_frame > moving.frame + 1;
+    };
+    for (int frame = 0; frame < 8; ++frame)
+        moving.advance();
+    ASSERT_EQ(moving.counts.worn_pools, 0U);
+    std::size_t slot = 0;
+    while (!lives_on(slot))
+        ++slot;
+    const Pool& pool = pool_of(slot);
+    moving.clusters().map[slot].a_minus_1(0, 0) = 9;
+    moving.advance();
+    EXPECT_EQ(moving.counts.worn_pools, 1U);
+    EXPECT_EQ(pool.turn_frame, moving.frame);
+    expect_sound(moving, 1000);
+}
+
 // In linear fields a cluster's map is exact, so members only ever move by the rounding of their offsets:
 // once when formed and four times a frame in the map, of offsets and paths of up to 10. After 200 frames
 // that is a random walk of 800 steps, with a factor of 5 for the largest of 3000 components.
