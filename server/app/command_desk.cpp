@@ -71,7 +71,9 @@ RegionOfInterest following(const RegionOfInterest& region, const ClientView& vie
     moved.centre = view.eye;
     moved.direction = view.look_at - view.eye;
     moved.up = view.up;
-    moved.field_of_view_deg = std::min(view.field_of_view_deg * region.view_share, 179.0);
+    const double field_of_view_deg = view.field_of_view_deg * region.view_share;
+    moved.field_of_view_deg =
+        std::isfinite(field_of_view_deg) ? std::min(field_of_view_deg, 179.0) : field_of_view_deg;
     moved.aspect = view.aspect;
     return moved;
 }
