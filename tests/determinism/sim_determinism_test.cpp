@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "sim/simulation.hpp"
 #include "simd/kernels.hpp"
+#include "support/case_rows.hpp"
 #include "support/full_team.hpp"
 #include "support/small_scenes.hpp"
 
@@ -52,11 +53,18 @@ std::vector<std::uint64_t> hashes(const SmallScene& scene, const Conditions& con
     return result;
 }
 
+/// Names the first frame that differs, and reports how many do.
 testing::AssertionResult same(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b)
 {
-    for (std::size_t frame = 0; frame < a.size(); ++frame)
-        if (a[frame] != b[frame])
-            return testing::AssertionFailure() << "frame " << frame << " is the first to differ";
+    std::size_t differing = 0, first = 0;
+    for (std::size_t frame = a.size(); frame-- > 0;)
+        if (a[frame] != b[frame]) {
+            ++differing;
+            first = frame;
+        }
+    expect_at_most("frames with other bits", double(differing), 0);
+    if (differing > 0)
+        return testing::AssertionFailure() << "frame " << first << " is the first to differ";
     return testing::AssertionSuccess();
 }
 
@@ -67,20 +75,22 @@ std::string name_of(const testing::TestParamInfo<SmallScene>& info)
 
 class SameBits : public testing::TestWithParam<SmallScene> {};
 
-TEST_P(SameBits, WithAnyNumberOfThreads)
+TEST_P(SameBits, N09_WithAnyNumberOfThreads)
 {
     const std::vector<std::uint64_t> alone = hashes(GetParam(), {.threads = 1});
-    for (const int threads : {2, 3, 4, 8, 16})
+    for (const int threads : {2, 3, 7, 15, 32})
         EXPECT_TRUE(same(alone, hashes(GetParam(), {.threads = threads}))) << threads << " threads";
 }
 
-TEST_P(SameBits, InTwoRuns)
+TEST_P(SameBits, N09_InThreeRuns)
 {
     const Conditions conditions{.threads = 4};
-    EXPECT_TRUE(same(hashes(GetParam(), conditions), hashes(GetParam(), conditions)));
+    const std::vector<std::uint64_t> first = hashes(GetParam(), conditions);
+    for (int again = 0; again < 2; ++again)
+        EXPECT_TRUE(same(first, hashes(GetParam(), conditions)));
 }
 
-TEST_P(SameBits, OnEveryInstructionSet)
+TEST_P(SameBits, N14_OnEveryInstructionSet)
 {
     const auto runnable = simd::runnable_kernels();
     const std::vector<std::uint64_t> slowest =
@@ -119,9 +129,11 @@ const std::map<std::string, std::uint64_t> pinned{
     {"encounters", 0x503565085b7547a6},
 };
 
-TEST_P(SameBits, AsWhenTheyWerePinned)
+// The same in every preset: not optimised, optimised and with sanitizers.
+TEST_P(SameBits, N14_AsWhenTheyWerePinned)
 {
     const std::uint64_t now = hashes(GetParam(), {.threads = 2}).back();
+    expect_at_most("scenes with another hash", pinned.at(GetParam().name) == now ? 0 : 1, 0);
     EXPECT_EQ(pinned.at(GetParam().name), now) << GetParam().name << ", 0x" << std::hex << now;
 }
 
@@ -148,9 +160,11 @@ TEST(DeterminismScenes, MakeEverythingHappen)
 }
 
 // On a machine of few cores the other tests would say little if the team were quietly cut down to them.
-TEST(ThreadTeamOfSixteen, WorksWithMoreThreadsThanThreeOrFour)
+TEST(ThreadTeamOfThirtyTwo, N09_WorksWithMoreThreadsThanThreeOrFour)
 {
-    ThreadTeam(16).run([&] { EXPECT_GE(gather_team(8), 8U); });
+    std::size_t seen = 0;
+    ThreadTeam(32).run([&] { seen = gather_team(16); });
+    expect_at_least("threads that took part", double(seen), 16);
 }
 
 } // namespace

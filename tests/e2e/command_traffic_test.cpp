@@ -8,6 +8,7 @@
 
 #include "e2e/command_fixture.hpp"
 #include "idl/dds.hpp"
+#include "support/case_rows.hpp"
 
 // Clients that are many, slow, silent or gone, and what becomes of their commands and of the server's frames.
 namespace slod {
@@ -19,7 +20,7 @@ using nlohmann::json;
 using test::Child;
 
 // One reader of clusters is killed, one is frozen.
-TEST_F(Commands, AClientThatDiesOrStopsDelaysNoFrame)
+TEST_F(Commands, N21_AClientThatDiesOrStopsDelaysNoFrame)
 {
     const Child running(server());
     client::Connection connection = connect({.stats = true});
@@ -33,13 +34,13 @@ TEST_F(Commands, AClientThatDiesOrStopsDelaysNoFrame)
     const std::uint64_t published = connection.stats()->wire.published_frames;
     EXPECT_TRUE(sees(connection, [&] { return connection.stats()->frame > frame + 200; }));
     EXPECT_GT(connection.stats()->wire.published_frames, published);
-    EXPECT_EQ(connection.stats()->wire.delayed_frames, 0U);
-    EXPECT_EQ(connection.stats()->wire.refused_samples, 0U);
+    test::expect_at_most("frames delayed by a client", double(connection.stats()->wire.delayed_frames), 0);
+    test::expect_at_most("samples refused", double(connection.stats()->wire.refused_samples), 0);
 }
 
 // Of the frames of a few removals far more than half are published: a wait for the reader that is frozen
 // would take a second of each, a hundred frames. The loop alone skips none unless the machine is overloaded.
-TEST_F(Commands, TheRemovalOfARegionDoesNotWaitForAReaderThatStandsStill)
+TEST_F(Commands, N21_TheRemovalOfARegionDoesNotWaitForAReaderThatStandsStill)
 {
     const Child running(server());
     client::Connection connection = connect({.stats = true});
@@ -57,8 +58,10 @@ TEST_F(Commands, TheRemovalOfARegionDoesNotWaitForAReaderThatStandsStill)
     const std::uint64_t frame = connection.stats()->frame;
     ASSERT_TRUE(sees(connection, [&] { return connection.stats()->frame > frame + 100; }));
     const wire::PublisherCounts& after = connection.stats()->wire;
-    EXPECT_GT(2 * (after.published_frames - before.published_frames),
-              after.offered_frames - before.offered_frames);
+    test::expect_at_least("share of offered frames that are published",
+                          double(after.published_frames - before.published_frames) /
+                              double(after.offered_frames - before.offered_frames),
+                          0.5);
 }
 
 // One command is taken at a time; of those that come together, each once, the others are still there the next

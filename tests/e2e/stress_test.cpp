@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "e2e/command_fixture.hpp"
+#include "support/case_rows.hpp"
 
 // slod-stress against the real server, over loopback.
 namespace slod {
@@ -60,7 +61,7 @@ std::string states_of(const std::string& word)
     return states;
 }
 
-TEST_F(Stress, ASmallCrowdOfEveryKindLeavesTheServerAndItsStateAsTheyShouldBe)
+TEST_F(Stress, N21_ASmallCrowdOfEveryKindLeavesTheServerAndItsStateAsTheyShouldBe)
 {
     Child running(server());
     ASSERT_EQ(load({"--subscribers", "6",  "--slow",      "1",  "--stopped",    "1",  "--joiners",   "1",
@@ -69,6 +70,7 @@ TEST_F(Stress, ASmallCrowdOfEveryKindLeavesTheServerAndItsStateAsTheyShouldBe)
               0)
         << said;
     EXPECT_EQ(report.at("readers").size(), 4U) << "steady, slow, stopped and joining";
+    test::expect_at_least("kinds of readers served at once", double(report.at("readers").size()), 4);
     for (const json& readers : report.at("readers"))
         EXPECT_GT(readers.at("received"), 0) << readers;
     const json& commands = report.at("commands");
@@ -87,7 +89,7 @@ TEST_F(Stress, ASmallCrowdOfEveryKindLeavesTheServerAndItsStateAsTheyShouldBe)
 }
 
 // SLOD_STRESS_COMMANDS in the environment asks for more of them.
-TEST_F(Stress, CommandsThatNoClientShouldSendAreEachAnsweredAndChangeNothing)
+TEST_F(Stress, N22_CommandsThatNoClientShouldSendAreEachAnsweredAndChangeNothing)
 {
     const char* const asked = std::getenv("SLOD_STRESS_COMMANDS");
     const std::string count = asked ? asked : "4000";
@@ -105,7 +107,8 @@ TEST_F(Stress, CommandsThatNoClientShouldSendAreEachAnsweredAndChangeNothing)
                                 "region_exists", "not_permitted"})
         EXPECT_GT(rough.at("results").value(refusal, 0), 0) << refusal;
     EXPECT_EQ(control({"status"}), 0);
-    EXPECT_EQ(answer.at("regions"), 1);
+    test::report_value("commands that no client should send", rough.at("commands").get<double>());
+    test::expect_at_most("regions they left behind", answer.at("regions").get<double>() - 1, 0);
     EXPECT_EQ(control({"stop"}), 0);
     EXPECT_EQ(running.wait(), 0);
     EXPECT_EQ(replay(), 0);

@@ -7,6 +7,7 @@
 #include "app/publisher.hpp"
 #include "common/connection.hpp"
 #include "e2e/wire_support.hpp"
+#include "support/case_rows.hpp"
 #include "unit/wire_snapshots.hpp"
 
 // The publisher without a simulation, over loopback, read by the clients' own library.
@@ -158,7 +159,7 @@ TEST_F(WirePublish, ALateJoinerGetsTheServersStateAtOnce)
 
 // The child reads clusters and is frozen in the middle. Frames are published or counted as skipped, DDS
 // refuses nothing, another reader goes on; thawed, the child is back.
-TEST_F(WirePublish, AFrozenReaderDelaysNobody)
+TEST_F(WirePublish, N21_AFrozenReaderDelaysNobody)
 {
     Publisher publisher(settings, made_up_session());
     test::Child frozen(
@@ -183,8 +184,8 @@ TEST_F(WirePublish, AFrozenReaderDelaysNobody)
         return now.frames_published + now.frames_skipped - before.frames_published - before.frames_skipped;
     };
     EXPECT_TRUE(offer_until(publisher, reader, [&] { return reader.complete_frames() > frames_before + 5; }));
-    EXPECT_GT(handled(), 0U);
-    EXPECT_EQ(publisher.counters().samples_refused, 0U);
+    test::expect_at_least("frames published or skipped beside a frozen reader", double(handled()), 1);
+    test::expect_at_most("samples refused", double(publisher.counters().samples_refused), 0);
 
     const std::size_t printed = frozen.output().size();
     frozen.signal(SIGCONT);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
+#include "support/case_rows.hpp"
 #include "tree/cell_map.hpp"
 
 namespace slod {
@@ -63,7 +64,7 @@ TEST(CellMap, AgreesWithAnOrderedMapUnderRandomOperations)
     }
 }
 
-TEST(CellMap, HoldsCellsAtTheRimOfTheGrid)
+TEST(CellMap, N18_HoldsCellsAtTheRimOfTheGrid)
 {
     CellMap cells;
     constexpr std::int32_t rim = 1 << 30;
@@ -75,8 +76,10 @@ TEST(CellMap, HoldsCellsAtTheRimOfTheGrid)
                 corners.push_back({x, y, z});
     for (const Cell& corner : corners)
         cells.insert(corner, NodeId{node++});
+    std::uint32_t found = 0;
     for (std::uint32_t i = 0; i < node; ++i)
-        EXPECT_EQ(cells.find(corners[i]), NodeId{i});
+        found += cells.find(corners[i]) == NodeId{i} ? 1 : 0;
+    test::expect_at_least("cells found again", found, node);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/pacer.hpp"
+#include "support/case_rows.hpp"
 
 namespace slod {
 namespace {
@@ -25,13 +26,22 @@ TEST(Pacer, WakingLateDoesNotAddUp)
 }
 
 // One frame takes 70 ms of 20: the next is due at once, and all later ones a full period apart from there.
-TEST(Pacer, ALateFrameMovesTheScheduleAndIsNotCaughtUp)
+TEST(Pacer, N06_ALateFrameMovesTheScheduleAndIsNotCaughtUp)
 {
     Pacer pacer(50, start);
     const Time late = start + 70ms;
     EXPECT_EQ(pacer.next(late), late);
     EXPECT_EQ(pacer.next(late + 1ms), late + 20ms);
     EXPECT_EQ(pacer.next(late + 21ms), late + 40ms);
+    // Frames that take 25 ms of 20 for ever: each begins when the last one ends, and none is made up for.
+    Time now = late + 40ms;
+    int early = 0;
+    for (int frame = 0; frame < 1000; ++frame) {
+        const Time due = pacer.next(now += 25ms);
+        early += due < now ? 1 : 0;
+        EXPECT_LE(due, now + 20ms);
+    }
+    test::expect_at_most("frames that are run to catch up", early, 0);
 }
 
 TEST(Pacer, AFrameOnTheDotIsNotLate)

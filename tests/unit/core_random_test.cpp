@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
+#include "support/case_rows.hpp"
 #include "support/random_draws.hpp"
 
 namespace slod {
@@ -40,15 +41,25 @@ TEST(Random, DrawsTheBlocksOfItsSeedStreamAndItemInOrder)
             EXPECT_EQ(random.bits(), word) << "block " << block;
 }
 
-TEST(Random, DiffersBySeedStreamAndItem)
+// Numbers are drawn in one order and in the reverse, by item.
+TEST(Random, N17_DiffersBySeedStreamAndItem)
 {
     const std::uint32_t first = Random(1, 2, 3).bits();
     EXPECT_EQ(Random(1, 2, 3).bits(), first);
-    EXPECT_NE(Random(2, 2, 3).bits(), first);
-    EXPECT_NE(Random(1, 3, 3).bits(), first);
-    EXPECT_NE(Random(1, 2, 4).bits(), first);
-    EXPECT_NE(Random(1 + (1ULL << 32), 2, 3).bits(), first);
-    EXPECT_NE(Random(1, 2, 3 + (1ULL << 32)).bits(), first);
+    const std::array others{Random(2, 2, 3), Random(1, 3, 3), Random(1, 2, 4), Random(1 + (1ULL << 32), 2, 3),
+                            Random(1, 2, 3 + (1ULL << 32))};
+    int alike = 0;
+    for (Random other : others)
+        alike += other.bits() == first ? 1 : 0;
+    test::expect_at_most("other seeds, streams and items with the same number", alike, 0);
+    constexpr std::uint64_t items = 1000;
+    std::array<std::uint32_t, items> forwards{};
+    for (std::uint64_t item = 0; item < items; ++item)
+        forwards[item] = Random(1, 2, item).bits();
+    int changed = 0;
+    for (std::uint64_t item = items; item-- > 0;)
+        changed += Random(1, 2, item).bits() == forwards[item] ? 0 : 1;
+    test::expect_at_most("numbers that change with the order", changed, 0);
 }
 
 TEST(Random, UniformNumbersNeverReach0Or1)

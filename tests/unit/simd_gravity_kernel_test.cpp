@@ -1,35 +1,39 @@
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "unit/simd_gravity_support.hpp"
 
 namespace slod::simd {
 namespace {
 
-/// False when a sum of some instruction set is not the definition's.
+/// The largest error of all instruction sets' sums, in what roundings may make of each; what has no terms is
+/// to be 0.
 template <class Real>
-bool agree_with_definition(const Bodies<Real>& targets, const Bodies<Real>& sources, std::ptrdiff_t self)
+double largest_error(const Bodies<Real>& targets, const Bodies<Real>& sources, std::ptrdiff_t self)
 {
     std::vector<Reference> expected;
     for (std::size_t t = 0; t < targets.count(); ++t)
         expected.push_back(reference(targets, t, sources, self));
+    double largest = 0;
     for (const KernelTable* table : runnable_kernels()) {
         const Sums<Real> sums = evaluate(*table, targets, sources, self);
         for (std::size_t t = 0; t < targets.count(); ++t) {
             for (std::size_t c = 0; c < component_count; ++c) {
                 const long double error = std::abs(sums[c][t] - expected[t].sum[c]);
-                if (error <= tolerance<Real>(c, expected[t], sources.count()))
-                    continue;
-                ADD_FAILURE() << table->name << ", target " << t << ", " << component_names[c] << ": "
-                              << sums[c][t] << " instead of " << expected[t].sum[c];
-                return false;
+                const double share =
+                    error == 0 ? 0 : double(error / tolerance<Real>(c, expected[t], sources.count()));
+                EXPECT_LE(share, 1) << table->name << ", target " << t << ", " << component_names[c] << ": "
+                                    << sums[c][t] << " instead of " << expected[t].sum[c];
+                largest = std::max(largest, share);
             }
         }
     }
-    return true;
+    return largest;
 }
 
 /// The first difference in bits, or nothing.
@@ -47,16 +51,18 @@ std::string difference(const Sums<Real>& a, const Sums<Real>& b)
 TYPED_TEST_SUITE(GravityKernel, Precisions, PrecisionNames);
 
 // Every number of sources about the length of the queue of pairs, and every padding.
-TYPED_TEST(GravityKernel, SumsWhatTheDefinitionSays)
+TYPED_TEST(GravityKernel, N23_SumsWhatTheDefinitionSays)
 {
+    double largest = 0;
     for (std::size_t target_count = 1; target_count <= 65; ++target_count) {
         const auto targets = random_bodies<TypeParam>(target_count, 2 * target_count);
         for (std::size_t source_count = 0; source_count <= 65; ++source_count) {
             const auto sources = random_bodies<TypeParam>(source_count, 2 * source_count + 1);
-            ASSERT_TRUE(agree_with_definition(targets, sources, no_self))
-                << target_count << " targets, " << source_count << " sources";
+            largest = std::max(largest, largest_error(targets, sources, no_self));
+            ASSERT_LE(largest, 1) << target_count << " targets, " << source_count << " sources";
         }
     }
+    test::expect_at_most("largest error, in that of all its roundings", largest, 1);
 }
 
 // The places of targets and sources have nothing to do with each other here, so that leaving out a wrong
@@ -67,8 +73,7 @@ TYPED_TEST(GravityKernel, LeavesOutTheBodyItselfAtEveryOffset)
     for (const std::size_t source_count : {1U, 7U, 16U, 43U}) {
         const auto sources = random_bodies<TypeParam>(source_count, 2);
         for (std::ptrdiff_t self = -50; self <= 50; ++self)
-            ASSERT_TRUE(agree_with_definition(targets, sources, self))
-                << source_count << " sources, self " << self;
+            ASSERT_LE(largest_error(targets, sources, self), 1) << source_count << " sources, self " << self;
     }
 }
 
@@ -150,8 +155,9 @@ TYPED_TEST(GravityKernel, AccelerationHasTheSameBitsWithAndWithoutTheTide)
 
 // Places from the size of the cube down to a millionth of it, so that sums mix all magnitudes and every
 // rounding tells; the padding is compared too.
-TYPED_TEST(GravityKernel, HasTheSameBitsOnEveryInstructionSet)
+TYPED_TEST(GravityKernel, N12_HasTheSameBitsOnEveryInstructionSet)
 {
+    int others = 0;
     for (std::uint64_t seed = 0; seed < 32; ++seed) {
         SCOPED_TRACE(seed);
         auto targets = random_bodies<TypeParam>(1 + 3 * seed, seed);
@@ -162,9 +168,13 @@ TYPED_TEST(GravityKernel, HasTheSameBitsOnEveryInstructionSet)
         }
         const auto self = static_cast<std::ptrdiff_t>(seed) - 10;
         const auto baseline = evaluate(*kernels("baseline"), targets, sources, self);
-        for (const KernelTable* table : runnable_kernels())
-            ASSERT_EQ(difference(baseline, evaluate(*table, targets, sources, self)), "") << table->name;
+        for (const KernelTable* table : runnable_kernels()) {
+            const std::string found = difference(baseline, evaluate(*table, targets, sources, self));
+            EXPECT_EQ(found, "") << table->name;
+            others += found.empty() ? 0 : 1;
+        }
     }
+    test::expect_at_most("lists of sources with other bits", others, 0);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/case_rows.hpp"
 #include "unit/simd_quadrupole_support.hpp"
 
 // The kernels of nodes with second moments. What they share with those of points is tested with those.
@@ -117,9 +118,11 @@ double node_roundings(std::size_t component)
     return component < 3 ? 45 : 59;
 }
 
+/// The largest error of a sum, in what roundings may make of it.
 template <class Real>
-void expect_definition(const KernelTable& table, std::size_t target_count, std::size_t node_count)
+double largest_error(const KernelTable& table, std::size_t target_count, std::size_t node_count)
 {
+    double largest = 0;
     const auto targets = random_targets<Real>(target_count, 2 * target_count);
     const auto nodes = random_nodes<Real>(node_count, 2 * node_count + 1);
     const auto sums = evaluate_nodes(table, targets, nodes.nodes());
@@ -130,11 +133,14 @@ void expect_definition(const KernelTable& table, std::size_t target_count, std::
         for (std::size_t c = 0; c < sum_count; ++c) {
             const long double bound = (node_roundings(c) + double(node_count)) *
                                       std::numeric_limits<Real>::epsilon() / 2 * expected.magnitude[c];
-            ASSERT_LE(std::abs(sums[c][t] - expected.sum[c]), bound)
-                << table.name << ", component " << c << " of target " << t << " of " << target_count << " by "
-                << node_count;
+            const long double error = std::abs(sums[c][t] - expected.sum[c]);
+            const double share = error == 0 ? 0 : double(error / bound);
+            EXPECT_LE(share, 1) << table.name << ", component " << c << " of target " << t << " of "
+                                << target_count << " by " << node_count;
+            largest = std::max(largest, share);
         }
     }
+    return largest;
 }
 
 template <class Real>
@@ -142,16 +148,19 @@ class QuadrupoleKernel : public testing::Test {};
 
 TYPED_TEST_SUITE(QuadrupoleKernel, Precisions, PrecisionNames);
 
-TYPED_TEST(QuadrupoleKernel, SumsWhatTheDefinitionSays)
+TYPED_TEST(QuadrupoleKernel, N23_SumsWhatTheDefinitionSays)
 {
+    double largest = 0;
     for (const KernelTable* table : runnable_kernels())
         for (const std::size_t target_count : {1U, 15U, 16U, 33U})
-            for (std::size_t node_count = 0; node_count <= 40; ++node_count)
-                expect_definition<TypeParam>(*table, target_count, node_count);
+            for (std::size_t node_count = 0; node_count <= 65; ++node_count)
+                largest = std::max(largest, largest_error<TypeParam>(*table, target_count, node_count));
+    test::expect_at_most("largest error, in that of all its roundings", largest, 1);
 }
 
-TYPED_TEST(QuadrupoleKernel, HasTheSameBitsOnEveryInstructionSetWithAndWithoutTheTide)
+TYPED_TEST(QuadrupoleKernel, N12_HasTheSameBitsOnEveryInstructionSetWithAndWithoutTheTide)
 {
+    int others = 0;
     for (std::uint64_t seed = 0; seed < 32; ++seed) {
         SCOPED_TRACE(seed);
         const auto targets = random_targets<TypeParam>(1 + 3 * seed, seed);
@@ -160,14 +169,17 @@ TYPED_TEST(QuadrupoleKernel, HasTheSameBitsOnEveryInstructionSetWithAndWithoutTh
         for (const KernelTable* table : runnable_kernels()) {
             for (const bool tide : {true, false}) {
                 const auto sums = evaluate_nodes(*table, targets, nodes.nodes(), tide);
-                for (std::size_t c = 0; c < (tide ? sum_count : 3); ++c)
-                    ASSERT_EQ(
-                        std::memcmp(sums[c].data(), baseline[c].data(), sums[c].size() * sizeof(TypeParam)),
-                        0)
+                for (std::size_t c = 0; c < (tide ? sum_count : 3); ++c) {
+                    const bool same = std::memcmp(sums[c].data(), baseline[c].data(),
+                                                  sums[c].size() * sizeof(TypeParam)) == 0;
+                    EXPECT_TRUE(same)
                         << table->name << ", component " << c << (tide ? "" : " without the tide");
+                    others += same ? 0 : 1;
+                }
             }
         }
     }
+    test::expect_at_most("sums with other bits", others, 0);
 }
 
 // Without extent a node is a point: the same terms, added to ones that are zero.
