@@ -1,7 +1,12 @@
 #include "scene_support.hpp"
 
+#include <algorithm>
+
 #include "scene/sections.hpp"
 #include "scene/value_text.hpp"
+#include "support/case_rows.hpp"
+#include "support/field_tables.hpp"
+#include "support/settings_keys.hpp"
 
 namespace slod::test {
 
@@ -77,34 +82,44 @@ TEST(SceneOverride, ALineBreakCannotSmuggleInAnotherKey)
 TEST(SceneOverride, EveryKeyCanBeReached)
 {
     Scene every = scene_of(two_of_each);
-    every.simulation.gravity.emplace();
-    every.simulation.uniform_gravity.emplace();
-    every.simulation.linear_drag.emplace();
-    every.simulation.uniform_wind.emplace();
-    every.simulation.quadratic_drag.emplace();
-    every.simulation.speed_limit.emplace();
-    every.simulation.brownian.emplace();
-    every.simulation.fields.of<Turbulence>().emplace();
-
+    name_all(every.simulation);
     // Each key is set to the value it has anyway: the only thing that could go wrong is not to find it.
     std::vector<std::string> overrides;
-    const auto add = [&](const std::string& prefix, auto& settings) {
-        for_each_field(settings, [&](const Field& field, const auto& value) {
-            overrides.push_back(prefix + std::string(field.key) + "=" + value_text(value));
-        });
-    };
-    for_each_section(every, [&]<class Settings>(const Section& section, Settings& settings) {
-        const std::string name(section.name);
-        if constexpr (requires { settings.at(0); }) {
-            for (std::size_t i = 0; i < settings.size(); ++i)
-                add(name + "." + std::to_string(i) + ".", settings[i]);
-        } else if constexpr (requires { settings.value(); }) {
-            add(name + ".", *settings);
-        } else {
-            add(name.empty() ? "" : name + ".", settings);
-        }
+    for_each_key(every, [&](const std::string& key, const Field&, const auto& value) {
+        overrides.push_back(key + "=" + value_text(value));
     });
     EXPECT_EQ(to_toml(scene_of(two_of_each, overrides)), to_toml(every));
+}
+
+TEST(SceneOverride, N01_NoKeyTakesWhatIsNoNumber)
+{
+    Scene every = scene_of(two_of_each + "[[region]]\nname = \"r\"\n[[sink]]\nname = \"s\"\n");
+    name_all(every.simulation);
+    ForceFields::for_each(
+        [&]<class F> { add_element(every.simulation.fields.of<F>(), typename F::Settings{}); });
+    AirFields::for_each(
+        [&]<class F> { add_element(every.simulation.fields.of<F>(), typename F::Settings{}); });
+    const std::string whole = to_toml(every);
+    ASSERT_EQ(problems_of(whole), Problems{});
+    std::size_t keys = 0, tried = 0, taken = 0;
+    for_each_key(every, [&](const std::string& key, const Field& field, const auto& value) {
+        const std::vector<std::string> bad = no_numbers(field, value);
+        keys += bad.empty() ? 0 : 1;
+        for (const std::string& text : bad) {
+            const auto loaded = load_scene({.name = "s.toml", .text = whole}, {key + "=" + text});
+            const auto* const found = std::get_if<Problems>(&loaded);
+            const bool told = found != nullptr &&
+                              std::any_of(found->begin(), found->end(), [&](const std::string& problem) {
+                                  return problem.find(key + " = ") != std::string::npos;
+                              });
+            EXPECT_TRUE(told) << key << " = " << text;
+            ++tried;
+            taken += told ? 0 : 1;
+        }
+    });
+    expect_at_least("keys of numbers", double(keys), 150);
+    report_value("values tried", double(tried));
+    expect_at_most("values taken that are no numbers", double(taken), 0);
 }
 
 TEST(SceneOverride, ItsProblemsNameTheOverrideInsteadOfALine)
