@@ -104,7 +104,7 @@ TYPED_TEST(GravityKernelArrays, N24_MayHaveTheirTargetsInAnyOrder)
             std::vector<std::size_t> order;
             Bodies<TypeParam> other;
             for (std::size_t t = 0; t < targets.count(); ++t) {
-                const std::size_t i = t * stride % targets.count();
+                const std::size_t i = (t * stride + 1) % targets.count();
                 order.push_back(i);
                 other.add(targets.x[i], targets.y[i], targets.z[i], targets.mass[i], targets.q[i]);
             }
