@@ -96,9 +96,27 @@ TEST_P(GravityAccuracy, ErrorsFallWithTheForceTolerance)
 // both for one body.
 TEST_P(GravityAccuracy, G14_TwoClumpsDoNotDetonate)
 {
-    const ForceErrors errors = default_errors(two_clumps(20'000, 1));
+    const ParticleSet clumps = two_clumps(20'000, 1);
+    const ForceErrors errors = default_errors(clumps);
     expect_at_most("99th percentile of the errors", errors.p99, 1e-2);
     expect_at_most("largest error of a pull", errors.largest, 3e-2);
+    AttractingWorld world = world_of(clumps);
+    world.evaluate();
+    std::vector<double> tolerances, medians, largest;
+    for (const double tolerance : {0.01, 0.003, 0.001, 0.0003}) {
+        world.settings.force_tolerance = tolerance;
+        world.evaluate();
+        const ForceErrors now = force_errors(world);
+        tolerances.push_back(tolerance);
+        medians.push_back(now.median);
+        largest.push_back(now.largest);
+    }
+    report_picture({"Two dense clumps of 20,000 bodies, one on the middle of the root",
+                    "force tolerance",
+                    "relative error of a pull",
+                    {{"median", tolerances, medians}, {"largest", tolerances, largest}},
+                    true,
+                    true});
 }
 
 TEST_P(GravityAccuracy, G22_AMassSpectrumOfAMillionToOneIsNoWorse)
