@@ -151,5 +151,26 @@ TEST(PythagoreanBodies, G07_AreNumbersAndFlaggedWhereStepsAreTooFew)
     report_value("error of the energy, which is to be large", course.largest_error);
 }
 
+// A pair in an orbit that takes 2 pi, in the shortest and in far too long a step.
+TEST(AbsurdStep, N05_OfABillionthOfABillionthMovesBodiesAsFarAsItsTime)
+{
+    SimulationSettings settings = point_masses(1e-12, 1000, 0.1);
+    const ParticleSet pair = eccentric(0);
+    const Course course = run(settings, pair, 1000e-12);
+    const double way = (course.end[1].position - pair[1].position).norm();
+    expect_within("way in 1000 steps, over speed times time", way / 1e-9, 1 - 1e-6, 1 + 1e-6);
+    expect_at_most("frames flagged under-resolved", double(course.under_resolved), 0);
+    expect_at_most("sub-steps a frame", double(course.substeps) / 1000, 1);
+}
+
+TEST(AbsurdStep, N05_OfAMillionIsCutIntoAsManyAsAllowedAndFlagged)
+{
+    const Course course = run(point_masses(1e6, 100, 0.1), eccentric(0), 10e6);
+    expect_within("frames flagged under-resolved, of 10", double(course.under_resolved), 10, 10);
+    expect_at_most("sub-steps a frame", double(course.substeps) / 10, 100);
+    for (const Particle& body : course.end)
+        EXPECT_TRUE(body.position.allFinite() && body.velocity.allFinite()) << "body " << body.id;
+}
+
 } // namespace
 } // namespace slod::test

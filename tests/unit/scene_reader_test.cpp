@@ -86,6 +86,21 @@ TEST(SceneReader, AnUnknownKeyThatIsLikeNoneListsAll)
                           {"duration", "known are step, max_substeps, substep_angle."}));
 }
 
+TEST(SceneReader, N03_AStepOfLengthZeroIsRefused)
+{
+    const bool refused = only_says(problems_of(minimal_scene + "[time]\nstep = 0\n"), {"time.step", "1e-12"});
+    expect_within("steps of length 0 refused, of 1", refused ? 1 : 0, 1, 1);
+}
+
+TEST(SceneReader, N04_ANegativeStepIsRefused)
+{
+    int refused = 0;
+    for (const char* step : {"-0.01", "-1e-300", "-inf"})
+        refused +=
+            only_says(problems_of(minimal_scene + "[time]\nstep = " + step + "\n"), {"time.step"}) ? 1 : 0;
+    expect_within("negative steps refused, of 3", refused, 3, 3);
+}
+
 TEST(SceneReader, AnUnknownTableSuggestsTheNearest)
 {
     EXPECT_TRUE(
