@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <spdlog/fmt/fmt.h>
 
-#include "app/run_summary.hpp"
+#include "app/publish_fields.hpp"
 
 namespace slod {
 namespace {
@@ -17,7 +18,31 @@ std::string percent(double share)
     return fmt::format("{:.3g} %", 100 * share);
 }
 
+double ratio(double change, double scale)
+{
+    return scale > 0 ? change / scale : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string drift_text(std::string_view what, double drift, double limit)
+{
+    if (!(std::abs(drift) > limit))
+        return {};
+    return fmt::format(
+        "The {} has changed by {} since the start, more than {}; use a smaller time.step, more "
+        "time.max_substeps, or finer forces.",
+        what, percent(drift), percent(limit));
+}
+
 } // namespace
+
+void Alarms::begin_anew(const Start& start)
+{
+    start_ = start;
+    now_ = start.conserved;
+    energy_ = start.conserved.kinetic_energy + start.potential_energy;
+    largest_momentum_ = std::sqrt(2 * now_.mass * now_.kinetic_energy);
+    dropped_momentum_ = 0;
+}
 
 void Alarms::add(const Snapshot& frame, double step)
 {
@@ -27,54 +52,52 @@ void Alarms::add(const Snapshot& frame, double step)
     add_events(events_, frame.counts);
     quarantined_ += frame.quarantined;
     dropped_momentum_ += step * frame.unanswered_force.norm();
-    if (frame.conserved.mass == 0 && frame.conserved.kinetic_energy == 0)
-        return; // it was not asked for
+    if (!is_measured(frame.conserved))
+        return;
     now_ = frame.conserved;
+    largest_momentum_ = std::max(largest_momentum_, std::sqrt(2 * now_.mass * now_.kinetic_energy));
     if (std::isfinite(frame.potential_energy))
         energy_ = frame.conserved.kinetic_energy + frame.potential_energy;
 }
 
 bool Alarms::look(const AlarmSettings& limits, const ControlReport& regulation)
 {
-    using enum AlarmSeverity;
-    changed_ = false;
-    const Drift drifts = now_ ? drift(start_.conserved, *now_) : Drift{};
-    const double largest = std::sqrt(2 * start_.conserved.mass * start_.conserved.kinetic_energy);
-    weigh("quarantined", Error, weigh_quarantine(limits.quarantined));
-    weigh("under_resolved", Warning, weigh_steps(limits.under_resolved));
-    weigh("energy_drift", Warning, weigh_energy(limits.energy_drift));
-    weigh("momentum_drift", Warning, weigh_drift("momentum", drifts.momentum, limits.momentum_drift));
-    weigh("angular_momentum_drift", Warning,
-          weigh_drift("angular momentum", drifts.angular_momentum, limits.angular_momentum_drift));
-    weigh("dropped_momentum", Warning,
-          weigh_drift("momentum, by regions that do not attract others,",
-                      largest > 0 ? dropped_momentum_ / largest : 0, limits.dropped_momentum));
-    weigh("reformed", Warning, weigh_reforming(limits.reformed));
-    weigh("births_refused", Warning,
-          {events_.births_refused,
-           events_.births_refused > 0
-               ? fmt::format(
-                     "{} particles were not emitted, as there are limits.max_particles; raise that, or emit "
-                     "less.",
-                     events_.births_refused)
-               : ""});
-    weigh("impacts_cut_off", Warning,
-          {events_.impacts_cut_off,
-           events_.impacts_cut_off > 0
-               ? fmt::format(
-                     "{} flights had more impacts in a frame than are followed, and end on a surface; use a "
-                     "smaller time.step.",
-                     events_.impacts_cut_off)
-               : ""});
-    weigh("unreachable", Warning,
-          {1, regulation.state == ControlState::Unreachable
-                  ? "The frame rate or error asked for is out of reach; ask for less, or widen what "
-                    "[control] may turn."
-                  : ""});
+    weigh_all(limits, regulation);
     frames_ = 0;
     particle_frames_ = 0;
     events_ = {};
     return changed_;
+}
+
+void Alarms::look_at_end(const Start& end, const AlarmSettings& limits, const ControlReport& regulation)
+{
+    now_ = end.conserved;
+    if (std::isfinite(end.potential_energy))
+        energy_ = end.conserved.kinetic_energy + end.potential_energy;
+    ending_ = true;
+    weigh_all(limits, regulation);
+}
+
+void Alarms::weigh_all(const AlarmSettings& limits, const ControlReport& regulation)
+{
+    using enum AlarmSeverity;
+    changed_ = false;
+    weigh("quarantined", Error, weigh_quarantine(limits.quarantined));
+    weigh("under_resolved", Warning, weigh_steps(limits.under_resolved));
+    weigh("energy_drift", Warning, {1, drift_text("energy", energy_drift(), limits.energy_drift)});
+    weigh("momentum_drift", Warning, {1, drift_text("momentum", momentum_drift(), limits.momentum_drift)});
+    weigh("angular_momentum_drift", Warning,
+          {1, drift_text("angular momentum", angular_momentum_drift(), limits.angular_momentum_drift)});
+    weigh("dropped_momentum", Warning, weigh_dropped(limits.dropped_momentum));
+    weigh("reformed", Warning, weigh_reforming(limits.reformed));
+    weigh("worn_maps", Warning, weigh_maps(limits.worn_maps));
+    weigh("births_refused", Warning, weigh_births());
+    weigh("impacts_cut_off", Warning, weigh_impacts());
+    const bool unreachable = regulation.state == ControlState::Unreachable;
+    weigh("unreachable", Warning,
+          {1, unreachable ? "The frame rate or error asked for is out of reach; ask for less, or widen what "
+                            "[control] may turn."
+                          : ""});
 }
 
 /// Raises the alarm, keeps it up to date, or takes it back.
@@ -82,52 +105,72 @@ void Alarms::weigh(std::string_view name, AlarmSeverity severity, const Finding&
 {
     const auto known = std::find_if(present_.begin(), present_.end(),
                                     [&](const Alarm& alarm) { return alarm.name == name; });
+    const auto row = known - present_.begin();
     if (finding.text.empty()) {
-        if (known == present_.end())
+        if (known == present_.end() || ending_ || ++quiet_looks_[std::size_t(row)] < looks_to_forget)
             return;
-        const auto row = raised_.begin() + (known - present_.begin());
-        if (++row->quiet_looks < looks_to_forget)
-            return;
-        raised_.erase(row);
+        std::erase_if(past_, [&](const Alarm& alarm) { return alarm.name == name; });
+        past_.push_back(*known);
         present_.erase(known);
+        quiet_looks_.erase(quiet_looks_.begin() + row);
         changed_ = true;
         return;
     }
-    Alarm fresh;
-    fresh.name = name;
-    fresh.first_frame = last_frame_;
-    const Alarm before = known != present_.end() ? *known : fresh;
-    Alarm now = before;
-    now.severity = severity;
-    now.last_frame = last_frame_;
-    now.occurrences += finding.occurrences;
-    now.text = finding.text;
     if (known == present_.end()) {
-        present_.push_back(now);
-        raised_.emplace_back();
-    } else {
-        *known = now;
-        raised_[std::size_t(known - present_.begin())].quiet_looks = 0;
+        present_.push_back({name, severity, last_frame_, last_frame_, finding.occurrences, finding.text});
+        quiet_looks_.push_back(0);
+        changed_ = true;
+        return;
     }
-    changed_ = changed_ || !(now == before);
+    quiet_looks_[std::size_t(row)] = 0;
+    if (finding.occurrences == 0)
+        return; // it is still so, and nothing new
+    known->last_frame = last_frame_;
+    known->occurrences += finding.occurrences;
+    known->text = finding.text;
+    changed_ = true;
 }
 
-Alarms::Finding Alarms::weigh_energy(double limit) const
+std::vector<std::string_view> Alarms::unwatched(const AlarmSettings& limits) const
+{
+    std::vector<std::string_view> found;
+    const auto check = [&](std::string_view name, double limit, double drift) {
+        if (std::isfinite(limit) && std::isnan(drift))
+            found.push_back(name);
+    };
+    check("energy_drift", limits.energy_drift, energy_drift());
+    check("angular_momentum_drift", limits.angular_momentum_drift, angular_momentum_drift());
+    return found;
+}
+
+double Alarms::energy_drift() const
 {
     const double before = start_.conserved.kinetic_energy + start_.potential_energy;
-    if (!energy_ || !std::isfinite(before) || before == 0)
-        return {};
-    return weigh_drift("energy", (*energy_ - before) / std::abs(before), limit);
+    return ratio(energy_ - before, std::abs(before));
 }
 
-Alarms::Finding Alarms::weigh_drift(std::string_view what, double drift, double limit) const
+/// What starts at rest has its scale from what it comes to.
+double Alarms::momentum_drift() const
 {
-    if (!(std::abs(drift) > limit))
+    const double change = (now_.momentum - start_.conserved.momentum).norm();
+    return largest_momentum_ > 0 ? change / largest_momentum_ : 0;
+}
+
+double Alarms::angular_momentum_drift() const
+{
+    return ratio((now_.angular_momentum - start_.conserved.angular_momentum).norm(),
+                 start_.conserved.angular_momentum.norm());
+}
+
+Alarms::Finding Alarms::weigh_dropped(double limit) const
+{
+    const double share = largest_momentum_ > 0 ? dropped_momentum_ / largest_momentum_ : 0;
+    if (!(share > limit))
         return {};
-    return {1, fmt::format(
-                   "The {} has changed by {} since the start, more than {}; use a smaller time.step, more "
-                   "time.max_substeps, or finer forces.",
-                   what, percent(drift), percent(limit))};
+    return {
+        1, fmt::format("Regions that do not attract others brought in {} of the largest momentum there could "
+                       "be, more than {}; use attracts = \"everything\", or make what is in them lighter.",
+                       percent(share), percent(limit))};
 }
 
 Alarms::Finding Alarms::weigh_steps(double limit) const
@@ -146,26 +189,50 @@ Alarms::Finding Alarms::weigh_reforming(double limit) const
     const double share = particle_frames_ > 0 ? double(events_.reformed_members) / particle_frames_ : 0;
     if (!(share > limit))
         return {};
-    return {1,
-            fmt::format(
-                "{} of all particles are formed anew in a frame, more than {}; raise motion.clock, or use a "
-                "smaller time.step.",
-                percent(share), percent(limit))};
+    return {1, fmt::format("{} of all particles are formed anew in a frame, more than {}; raise "
+                           "motion.clock, or use a smaller time.step.",
+                           percent(share), percent(limit))};
+}
+
+Alarms::Finding Alarms::weigh_maps(double limit) const
+{
+    const std::uint64_t worn = events_.worn_pools;
+    if (!(double(worn) > limit * double(events_.due_pools)))
+        return {};
+    return {worn,
+            fmt::format("{} of {} lives of pools ended early, as flow maps had stretched eightfold; use "
+                        "a smaller time.step or motion.clock, or a larger softening.",
+                        worn, events_.due_pools)};
 }
 
 Alarms::Finding Alarms::weigh_quarantine(double limit) const
 {
     if (!(double(quarantined_.particles) > limit))
         return {};
-    std::string ids;
-    for (const std::uint64_t id : quarantined_.ids)
-        ids += (ids.empty() ? "" : ", ") + std::to_string(id);
+    const bool some = quarantined_.particles > quarantined_.ids().size();
     return {events_.quarantined,
-            fmt::format(
-                "{} particles left the range of numbers and were taken out, {} {}; use a smaller time.step, "
-                "weaker forces or a larger softening.",
-                quarantined_.particles,
-                quarantined_.particles > quarantined_.ids.size() ? "the first" : "their ids", ids)};
+            fmt::format("{} particles left the range of numbers and were taken out; use a smaller time.step, "
+                        "weaker forces or a larger softening. {} {}.",
+                        quarantined_.particles,
+                        some ? "The first ids:" : "Ids:", fmt::join(quarantined_.ids(), ", "))};
+}
+
+Alarms::Finding Alarms::weigh_births() const
+{
+    if (events_.births_refused == 0)
+        return {};
+    return {events_.births_refused, fmt::format("{} particles were not emitted, as there are "
+                                                "limits.max_particles; raise that, or emit less.",
+                                                events_.births_refused)};
+}
+
+Alarms::Finding Alarms::weigh_impacts() const
+{
+    if (events_.impacts_cut_off == 0)
+        return {};
+    return {events_.impacts_cut_off, fmt::format("{} flights had more impacts in a frame than are followed, "
+                                                 "and ended on a surface; use a smaller time.step.",
+                                                 events_.impacts_cut_off)};
 }
 
 } // namespace slod

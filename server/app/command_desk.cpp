@@ -198,7 +198,7 @@ Answer CommandDesk::set(const Request& request)
     if (!asked.region.empty())
         if (auto answer = objection(asked))
             return *answer;
-    if (const Problems found = editor_.set(request.settings, frame_); !found.empty())
+    if (const Problems found = editor_.set(request.settings, frame_, loop_.alarms); !found.empty())
         return refusal(found);
     return applied(asked);
 }

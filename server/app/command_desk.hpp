@@ -48,6 +48,7 @@ public:
     void expire_leases(std::uint64_t frame, Clock::time_point now);
 
     SceneEditor& editor() { return editor_; }
+    const SceneEditor& editor() const { return editor_; }
     const LoopSettings& loop() const { return loop_; } ///< as they were set last
     RunControl& control() { return control_; }
     const RunControl& control() const { return control_; }

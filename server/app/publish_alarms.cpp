@@ -1,7 +1,6 @@
 #include "app/publish_alarms.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace slod {
 
@@ -19,12 +18,8 @@ wire::Alarm PublishedAlarms::message_of(const Alarm& alarm) const
     return message;
 }
 
-void PublishedAlarms::update(const std::shared_ptr<const std::vector<Alarm>>& alarms)
+void PublishedAlarms::update(const std::vector<Alarm>& present)
 {
-    if (std::exchange(last_, alarms) == alarms)
-        return;
-    const std::vector<Alarm> none;
-    const std::vector<Alarm>& present = alarms ? *alarms : none;
     std::erase_if(told_, [&](const auto& told) {
         const auto is_told = [&](const Alarm& alarm) { return alarm.name == told.first; };
         if (std::any_of(present.begin(), present.end(), is_told))

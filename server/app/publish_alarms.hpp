@@ -1,11 +1,10 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "app/alarms.hpp"
+#include "app/alarm.hpp"
 #include "app/publish_outlet.hpp"
 #include "idl/dds.hpp"
 
@@ -19,9 +18,8 @@ public:
         : session_(session), outlet_(outlet), writer_(participant)
     {}
 
-    /// Writes those of a list that are new or say something else, if it is another list than the last, and
-    /// disposes of those that it does not have. Null: there are none.
-    void update(const std::shared_ptr<const std::vector<Alarm>>& alarms);
+    /// Writes those that are new or say something else, and disposes of those that are not there any more.
+    void update(const std::vector<Alarm>& present);
 
     std::size_t count() const { return told_.size(); }
 
@@ -31,7 +29,6 @@ private:
     wire::Uuid session_;
     Outlet& outlet_;
     wire::Writer<wire::Alarm> writer_;
-    std::shared_ptr<const std::vector<Alarm>> last_;
     std::map<std::string, Alarm> told_; ///< by name
 };
 

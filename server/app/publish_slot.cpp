@@ -1,7 +1,6 @@
 #include "app/publish_slot.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -15,10 +14,10 @@ void copy_numbers(const Snapshot& from, Snapshot& to, bool waits)
     to.frame = from.frame;
     to.time = from.time;
     to.counts = from.counts;
-    if (!waits || is_measured(from.conserved))
+    if (!waits || is_measured(from.conserved)) {
         to.conserved = from.conserved;
-    if (!waits || std::isfinite(from.potential_energy))
         to.potential_energy = from.potential_energy;
+    }
     to.profile = from.profile;
     to.regions = from.regions;
     to.detail = from.detail;
@@ -68,6 +67,15 @@ void FrameSlot::post(std::vector<Answer>&& answers, std::vector<RegionRecord>&& 
             mail_.regions[record.settings.name] = std::move(record);
         if (paused)
             mail_.paused = paused;
+    }
+    arrived_.notify_one();
+}
+
+void FrameSlot::post(std::vector<Alarm>&& alarms)
+{
+    {
+        const std::scoped_lock guard(lock_);
+        mail_.alarms = std::move(alarms);
     }
     arrived_.notify_one();
 }

@@ -40,8 +40,9 @@ struct Mail {
     std::vector<Answer> answers;                 ///< in the order they were given
     std::map<std::string, RegionRecord> regions; ///< by name, the newest record of each
     std::optional<bool> paused;                  ///< when that has changed
+    std::optional<std::vector<Alarm>> alarms;    ///< all there are, when that has changed
 
-    bool any() const { return !answers.empty() || !regions.empty() || paused.has_value(); }
+    bool any() const { return !answers.empty() || !regions.empty() || paused || alarms; }
 };
 
 /// Holds the newest frame and the mail. Has the program's one lock: the loop waits for the publisher no
@@ -58,6 +59,8 @@ public:
 
     /// Adds to the mail.
     void post(std::vector<Answer>&& answers, std::vector<RegionRecord>&& regions, std::optional<bool> paused);
+
+    void post(std::vector<Alarm>&& alarms);
 
     std::size_t waiting_answers();
 

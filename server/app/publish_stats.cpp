@@ -1,6 +1,5 @@
 #include "app/publish_stats.hpp"
 
-#include <cmath>
 #include <string_view>
 
 #include "app/publish_fields.hpp"
@@ -90,16 +89,13 @@ void StatsEncoder::set_conserved(const ConservedQuantities& now, double potentia
     if (!is_measured(now))
         return;
     message_.conserved_measured = true;
-    if (!first_conserved_)
+    if (!first_conserved_) {
         first_conserved_ = now;
-    if (std::isfinite(potential_energy)) {
-        potential_energy_ = potential_energy;
-        if (!first_potential_energy_)
-            first_potential_energy_ = potential_energy;
+        first_potential_energy_ = potential_energy;
     }
-    message_.conserved = conserved_message(now, potential_energy_);
-    message_.drift = conserved_message(difference(now, *first_conserved_),
-                                       potential_energy_ - first_potential_energy_.value_or(0));
+    message_.conserved = conserved_message(now, potential_energy);
+    message_.drift =
+        conserved_message(difference(now, *first_conserved_), potential_energy - first_potential_energy_);
 }
 
 } // namespace slod

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -31,8 +30,7 @@ private:
     std::vector<slod_v1_PhaseTime> phases_;
     std::vector<slod_v1_NamedCount> counts_;
     std::optional<ConservedQuantities> first_conserved_;
-    std::optional<double> first_potential_energy_;
-    double potential_energy_ = std::numeric_limits<double>::quiet_NaN();
+    double first_potential_energy_ = 0; ///< with those; NaN: it was not measured then
     wire::Stats message_{};
 };
 

@@ -91,7 +91,6 @@ void PublishedTopics::publish(const OfferedFrame& frame)
     }
     errors_.update(frame.loop.errors, {.frame = frame.newest.frame, .time = frame.newest.time});
     effects_.update(frame.loop.effects);
-    alarms_.update(frame.loop.alarms);
     if (region_counts_rate_.due(begin)) {
         region_counts_rate_.mark(begin);
         regions_.write_counts(frame.newest.regions);

@@ -43,6 +43,7 @@ public:
     /// Writes states of regions and answers to clients.
     void publish(const RegionRecord& region) { regions_.update(region); }
     void publish(const Answer& answer);
+    void publish(const std::vector<Alarm>& alarms) { alarms_.update(alarms); }
     std::size_t region_count() const { return regions_.count(); }
 
     /// Writes what is due of a frame, and its statistics where they are read and their rate allows.

@@ -87,9 +87,11 @@ void Publisher::Impl::publish(const OfferedFrame* frame)
     publish_regions(true);
     for (const Answer& answer : mail.answers)
         topics.publish(answer);
+    if (mail.alarms)
+        topics.publish(*mail.alarms);
     if (mail.paused)
         topics.set_paused(*mail.paused);
-    if (mail.paused || topics.region_count() != regions_before)
+    if (mail.paused || mail.alarms || topics.region_count() != regions_before)
         topics.publish_state();
 }
 
@@ -134,6 +136,11 @@ void Publisher::tell(std::vector<Answer>&& answers, std::vector<RegionRecord>&& 
     paused_ = paused;
     if (!answers.empty() || !regions.empty() || news)
         impl_->slot.post(std::move(answers), std::move(regions), news);
+}
+
+void Publisher::tell(std::vector<Alarm>&& alarms)
+{
+    impl_->slot.post(std::move(alarms));
 }
 
 std::size_t Publisher::answer_room() const

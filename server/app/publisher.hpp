@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/alarms.hpp"
+#include "app/alarm.hpp"
 #include "app/requests.hpp"
 #include "control/controller.hpp"
 #include "meter/error_window.hpp"
@@ -47,7 +47,6 @@ struct LoopStats {
     ControlReport regulation{};                    ///< at the frame's start
     std::shared_ptr<const ErrorReport> errors{};   ///< the newest; null: they are not measured
     std::shared_ptr<const EffectReport> effects{}; ///< the newest; null: nobody reads it
-    std::shared_ptr<const std::vector<Alarm>> alarms{}; ///< those that there are; null: none
 };
 
 /// Publishes frames, statistics and the server's sign of life over DDS, on a thread of its own. The loop
@@ -96,6 +95,9 @@ public:
     /// Sends answers and news of regions, and whether the loop is paused, ahead of every later frame. Nothing
     /// of it is lost; what was said last of a region holds.
     void tell(std::vector<Answer>&& answers, std::vector<RegionRecord>&& regions, bool paused);
+
+    /// Sends the alarms that there are now, likewise: also while the loop is paused.
+    void tell(std::vector<Alarm>&& alarms);
 
     /// How many answers it takes at present: bounded, should the publisher's thread be held up.
     std::size_t answer_room() const;

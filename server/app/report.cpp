@@ -1,5 +1,7 @@
 #include "app/report.hpp"
 
+#include <span>
+
 #include <nlohmann/json.hpp>
 
 #include "app/input_log.hpp"
@@ -78,6 +80,14 @@ Json error_json(const ErrorEstimate& error)
             {"rms", error.rms}};
 }
 
+Json ids_json(std::span<const std::uint64_t> ids)
+{
+    Json list = Json::array();
+    for (const std::uint64_t id : ids)
+        list.push_back(id);
+    return list;
+}
+
 Json alarms_json(const std::vector<Alarm>& alarms)
 {
     Json list = Json::array();
@@ -120,6 +130,10 @@ std::string report(const ReportedRun& run)
         {"unanswered_force", vector_json(summary.unanswered_force)},
         {"drained", losses_json(summary.drained)},
         {"killed", losses_json(summary.killed)},
+        {"quarantined",
+         {{"particles", summary.quarantined.particles},
+          {"mass", summary.quarantined.mass},
+          {"first_ids", ids_json(summary.quarantined.ids())}}},
         {"counts", counts_json(summary.events)},
         {"settings", settings_json(run.scene)},
     };

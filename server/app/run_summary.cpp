@@ -27,6 +27,7 @@ void RunSummary::add(const Snapshot& snapshot, double work_ms)
     add_events(events, snapshot.counts);
     drained += snapshot.drained;
     killed += snapshot.killed;
+    quarantined += snapshot.quarantined;
 }
 
 Drift drift(const ConservedQuantities& start, const ConservedQuantities& end)

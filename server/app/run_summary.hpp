@@ -23,9 +23,10 @@ struct RunSummary {
     FrameCounts events;           ///< for_each_event() of it: totals over the run
     Vector3d unanswered_force{0, 0, 0}; ///< at the end: Snapshot's
     Losses drained, killed;             ///< by sinks and by colliders, over the run
+    Quarantined quarantined;            ///< over the run
     ConservedQuantities conserved_start;
     ConservedQuantities conserved_end;
-    std::vector<Alarm> alarms;  ///< that there were at the end
+    std::vector<Alarm> alarms;  ///< over the run, those that are over first
     ErrorEstimate error;        ///< of accelerations, at the end
     DurationHistogram frame_ms; ///< a frame's work, without the pacer's wait
     std::array<DurationHistogram, phase_count> phase_ms;

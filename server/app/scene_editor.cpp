@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scene/nearest.hpp"
+#include "scene/scene_check.hpp"
 #include "scene/value_text.hpp"
 
 namespace slod {
@@ -129,7 +130,8 @@ Problems SceneEditor::remove(const std::string& name, std::uint64_t frame)
     return {};
 }
 
-Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t frame)
+Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t frame,
+                          const AlarmSettings& limits)
 {
     const auto others = std::find_if_not(settings.begin(), settings.end(), of_background);
     if (others == settings.end())
@@ -141,6 +143,8 @@ Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t
     Problems found = assign_fields(wanted, settings);
     if (found.empty())
         found = idle_switches(settings, wanted);
+    if (found.empty())
+        found = problems(limits, called_for(wanted));
     if (!found.empty())
         return found;
     if (found = simulation_.change_settings(wanted); !found.empty())

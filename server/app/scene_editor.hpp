@@ -10,6 +10,7 @@
 
 #include "app/input_log.hpp"
 #include "app/requests.hpp"
+#include "scene/server_settings.hpp"
 #include "sim/simulation.hpp"
 
 namespace slod {
@@ -41,8 +42,10 @@ public:
                  std::uint64_t frame);
     Problems change(const RegionOfInterest& region, std::uint64_t frame); ///< of its name; must be there
     Problems remove(const std::string& name, std::uint64_t frame);        ///< must be there
-    /// Settings by table.key; those of [background] are the region's, and stand alone.
-    Problems set(const std::vector<Assignment>& settings, std::uint64_t frame);
+    /// Settings by table.key; those of [background] are the region's, and stand alone. Refused where `limits`
+    /// are of what the scene would not conserve then.
+    Problems set(const std::vector<Assignment>& settings, std::uint64_t frame,
+                 const AlarmSettings& limits = {});
 
     const SimulationSettings& scene() const { return simulation_.settings(); } ///< as it is
 

@@ -71,6 +71,8 @@ RunSummary Server::run(const std::stop_token& stop)
     const Alarms::Start at_start = measure_conserved();
     summary.conserved_start = at_start.conserved;
     alarms_.emplace(at_start);
+    for (const std::string_view name : alarms_->unwatched(steering_->loop().alarms))
+        spdlog::warn("alarms.{} is not watched: nothing is known of it in this scene", name);
     start_ = Clock::now();
     spdlog::info("started threads={} isa={} wire={}", threads_, simulation_->isa(), publisher_.has_value());
 
@@ -89,10 +91,13 @@ RunSummary Server::run(const std::stop_token& stop)
     steering_->repeat_rest(summary.frames + 1, team_);
 
     summary.wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    summary.conserved_end = measure_conserved().conserved;
-    if (alarms_->look(steering_->loop().alarms, steering_->regulation()))
-        log_alarms();
-    summary.alarms = alarms_->present();
+    const Alarms::Start at_end = measure_conserved();
+    summary.conserved_end = at_end.conserved;
+    alarms_->look_at_end(at_end, steering_->loop().alarms, steering_->regulation());
+    log_alarms();
+    log_quarantined();
+    summary.alarms = alarms_->past();
+    summary.alarms.insert(summary.alarms.end(), logged_alarms_.begin(), logged_alarms_.end());
     summary.state_hash = simulation_->state_hash();
     summary.error = simulation_->error();
     spdlog::info("stopped frames={} time={:.6g} wall_s={:.3f} interrupted={}", summary.frames, summary.time,
@@ -150,8 +155,7 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
                            .frame_rate_target_hz = free_run_ ? 0 : steering_->loop().server.frame_rate,
                            .regulation = steering_->regulation(),
                            .errors = errors_,
-                           .effects = effects_,
-                           .alarms = present_alarms_});
+                           .effects = effects_});
     }
     const Clock::time_point end = Clock::now();
     const FrameTime took{.wall_s = std::chrono::duration<double>(end - start_).count(),
@@ -163,6 +167,10 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
                       snapshot->counts.error_pairs);
     summary.add(*snapshot, took.step_ms);
     alarms_->add(*snapshot, simulation_->settings().time.step);
+    taken_out_ += snapshot->quarantined;
+    if (snapshot->quarantined.particles > 0 ||
+        std::exchange(effects_known_, steering_->effect_changes()) != steering_->effect_changes())
+        alarms_->begin_anew(measure_conserved());
     new_second_ = meter.add(end, took.step_ms, snapshot->profile);
     const ControlReport regulation = steering_->regulation();
     if (each_frame_)
@@ -172,6 +180,7 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
         report_effects(*snapshot);
         if (alarms_->look(limits, regulation))
             log_alarms();
+        log_quarantined();
         each_second_({*snapshot, meter.means(), simulation_->plan(), regulation, simulation_->error(),
                       alarms_->present()});
     }
@@ -214,22 +223,34 @@ double Server::encoding_ms()
     return encoded ? counters.encode_ms : 0;
 }
 
-/// What is new in the log, once; the rest for those who read it.
+/// What is new in the log, once; all of it to those who read it.
 void Server::log_alarms()
 {
-    const auto known = [](const std::vector<Alarm>& alarms, std::string_view name) {
+    const auto among = [](const std::vector<Alarm>& alarms, std::string_view name) {
         return std::any_of(alarms.begin(), alarms.end(),
                            [&](const Alarm& alarm) { return alarm.name == name; });
     };
-    const std::vector<Alarm> before = present_alarms_ ? *present_alarms_ : std::vector<Alarm>{};
     const std::vector<Alarm>& now = alarms_->present();
     for (const Alarm& alarm : now)
-        if (!known(before, alarm.name))
-            spdlog::warn("alarm {} frame={} {}", alarm.name, alarm.first_frame, alarm.text);
-    for (const Alarm& alarm : before)
-        if (!known(now, alarm.name))
+        if (!among(logged_alarms_, alarm.name))
+            spdlog::log(alarm.severity == AlarmSeverity::Error ? spdlog::level::err : spdlog::level::warn,
+                        "alarm {} frame={} {}", alarm.name, alarm.first_frame, alarm.text);
+    for (const Alarm& alarm : logged_alarms_)
+        if (!among(now, alarm.name))
             spdlog::info("alarm {} is over, last in frame {}", alarm.name, alarm.last_frame);
-    present_alarms_ = std::make_shared<const std::vector<Alarm>>(now);
+    logged_alarms_ = now;
+    if (publisher_)
+        publisher_->tell(std::vector<Alarm>(now));
+}
+
+/// Names who was taken out since the last time.
+void Server::log_quarantined()
+{
+    if (taken_out_.particles > 0)
+        spdlog::error("taken out, out of the range of numbers: {} particles of mass {:.6g}, ids {}{}",
+                      taken_out_.particles, taken_out_.mass, fmt::join(taken_out_.ids(), ", "),
+                      taken_out_.particles > taken_out_.ids().size() ? " and others" : "");
+    taken_out_ = {};
 }
 
 Alarms::Start Server::measure_conserved()

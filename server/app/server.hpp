@@ -69,6 +69,7 @@ private:
 
     /// Says in the log which alarms came and went, and has them published.
     void log_alarms();
+    void log_quarantined();
 
     Alarms::Start measure_conserved();
 
@@ -86,7 +87,9 @@ private:
     std::shared_ptr<const ErrorReport> errors_;   ///< to be published
     std::shared_ptr<const EffectReport> effects_; ///< likewise
     std::optional<Alarms> alarms_;
-    std::shared_ptr<const std::vector<Alarm>> present_alarms_;
+    std::vector<Alarm> logged_alarms_; ///< as they were last told
+    Quarantined taken_out_;            ///< since the log last had them
+    std::uint64_t effects_known_ = 0;  ///< changes of effects that drifts begin after
     Pacer::Clock::time_point start_{}; ///< of the run
     std::uint64_t frames_encoded_ = 0; ///< by the publisher, when that was last asked
     bool new_second_ = true;           ///< the next frame is the first of a second

@@ -53,6 +53,7 @@ public:
     void regulate(std::uint64_t frame, ThreadTeam& team);
 
     const LoopSettings& loop() const { return desk_.loop(); } ///< as they were set last
+    std::uint64_t effect_changes() const { return desk_.editor().effect_changes(); } ///< so far
     ControlReport regulation() const { return regulator_.report(); }
 
     /// Makes the changes that a log has of `frame`, which did not run: the recorded run was stopped after

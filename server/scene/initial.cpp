@@ -2,11 +2,13 @@
 #include <string>
 #include <system_error>
 
+#include "core/number_text.hpp"
 #include "scene/gadget2.hpp"
 #include "scene/galaxy_model.hpp"
 #include "scene/galaxy_pair.hpp"
 #include "scene/kinds.hpp"
 #include "scene/scene.hpp"
+#include "sim/quarantine.hpp"
 
 namespace slod {
 
@@ -58,6 +60,12 @@ std::variant<InitialParticles, Problems> from_file(const Scene& scene, const std
     if (auto* const found = std::get_if<Problems>(&read))
         return std::move(*found);
     InitialParticles initial{std::get<ParticleSet>(std::move(read)), {}, file};
+    const double range = scene_range(scene.simulation);
+    for (const Particle& particle : initial.particles)
+        if (!in_range(particle.position, range) || !in_range(particle.velocity, largest_number))
+            return Problems{file.string() + ": particle " + std::to_string(particle.id) +
+                            " is out of the scene's range, " + number_text(range) + " for places and " +
+                            number_text(largest_number) + " for velocities; repair or remove it."};
     initial.source = "GADGET-2 file " + file.string() + ", " + census(initial.particles, kinds) + ".";
     return initial;
 }

@@ -1,5 +1,6 @@
 #include "scene/scene_check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -94,13 +95,16 @@ Problems problems(const AlarmSettings& alarms, const SimulationSettings& simulat
     const auto check = [&](std::string_view key, double limit, std::string_view breaks) {
         if (std::isfinite(limit) && !breaks.empty())
             found.push_back("alarms." + std::string(key) + " = " + number_text(limit) + " limits what " +
-                            std::string(breaks) + " does not conserve; use inf, or leave that effect out.");
+                            std::string(breaks) + " does not conserve; use inf, or do without that.");
     };
     check("energy_drift", alarms.energy_drift, breaks_energy(simulation));
     check("momentum_drift", alarms.momentum_drift, breaks_momentum(simulation));
     check("angular_momentum_drift", alarms.angular_momentum_drift, breaks_momentum(simulation));
-    if (std::isfinite(alarms.energy_drift) && simulation.gravity &&
-        simulation.background.max_cluster_size > 1)
+    const auto clustered = [](const RegionSettings& partition) { return partition.max_cluster_size >= 2; };
+    if (std::isfinite(alarms.energy_drift) && simulation.gravity && simulation.effects.runs("gravity") &&
+        (clustered(simulation.background) ||
+         std::any_of(simulation.regions.begin(), simulation.regions.end(),
+                     [&](const RegionOfInterest& region) { return clustered(region.partition); })))
         found.push_back("alarms.energy_drift = " + number_text(alarms.energy_drift) +
                         " needs the potential energy of all pairs, which clusters do not have; use inf, or "
                         "background.max_cluster_size = 1 and at most " +

@@ -46,6 +46,7 @@ struct AlarmSettings {
     double dropped_momentum = std::numeric_limits<double>::infinity(); ///< over the largest there could be
     double under_resolved = 0.1;                                       ///< share of a second's frames
     double reformed = 1;    ///< share of all particles that a frame forms anew, mean over a second
+    double worn_maps = 0.1; ///< share of a second's lives of pools that ended as a map was worn
     double quarantined = 0; ///< particles since the start
 };
 
@@ -125,6 +126,9 @@ void for_each_field(AlarmSettings& alarms, Visitor&& visit)
           alarms.under_resolved);
     share("reformed", "Share of all particles that a frame forms anew, in the mean of a second; 1: off.",
           alarms.reformed);
+    share("worn_maps",
+          "Share of the pools formed anew in a second whose flow maps had stretched too far; 1: off.",
+          alarms.worn_maps);
     share("quarantined", "Particles taken out since the start, as they left the range of numbers.",
           alarms.quarantined);
 }

@@ -188,6 +188,7 @@ Problems Simulation::set_detail(const Detail& detail)
 /// What gravity and the clocks take of the tree's detail.
 void Simulation::State::set_detail()
 {
+    range = scene_range(settings);
     reforming.set_clock(settings.motion.clock * tree.detail.life);
     if (!settings.gravity)
         return;

@@ -1,5 +1,7 @@
 #include "sim/conservation.hpp"
 
+#include <algorithm>
+
 namespace slod {
 namespace {
 
@@ -26,10 +28,24 @@ bool has_potential(std::string_view effect)
     return has;
 }
 
+/// Whether some force has no reaction.
+bool is_one_sided(const SimulationSettings& settings)
+{
+    const auto sided = [](const RegionSettings& partition) {
+        return partition.attracts != Attracts::Everything;
+    };
+    return settings.gravity && settings.effects.runs("gravity") &&
+           (sided(settings.background) ||
+            std::any_of(settings.regions.begin(), settings.regions.end(),
+                        [&](const RegionOfInterest& region) { return sided(region.partition); }));
+}
+
 } // namespace
 
 std::string_view breaks_energy(const SimulationSettings& settings)
 {
+    if (is_one_sided(settings))
+        return "attracts";
     return first_but(settings, [](std::string_view name) {
         return name == "gravity" || name == "uniform_gravity" || has_potential(name);
     });
@@ -37,6 +53,8 @@ std::string_view breaks_energy(const SimulationSettings& settings)
 
 std::string_view breaks_momentum(const SimulationSettings& settings)
 {
+    if (is_one_sided(settings))
+        return "attracts";
     return first_but(settings, [](std::string_view name) { return name == "gravity"; });
 }
 

@@ -82,9 +82,14 @@ double largest_rate_squared(const ClusterTable& clusters)
     std::atomic<double> largest{0};
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         double most = 0;
-        for (std::size_t slot = first; slot < last; ++slot)
-            if (clusters.alive(slot))
-                most = std::max(most, clusters.rate_squared(slot));
+        for (std::size_t slot = first; slot < last; ++slot) {
+            if (!clusters.alive(slot))
+                continue;
+            Matrix3d gradient = clusters.gradient(slot);
+            if (clusters.columns.map)
+                gradient.diagonal().array() -= clusters.closure[slot];
+            most = std::max(most, gradient.norm());
+        }
         for (double known = largest; known < most && !largest.compare_exchange_weak(known, most);)
             ;
     });

@@ -15,7 +15,8 @@ void kick_cluster(ClusterTable& clusters, std::size_t slot, double step);
 /// some place or map is none any more.
 [[nodiscard]] bool propagate_clusters(ClusterTable& clusters, const Propagator& step, double range);
 
-/// Largest square of the rate at which fields deform a cluster, 1 / time^2: 0 where tides are not evaluated.
+/// Largest square of the rate at which fields and the members' own attraction deform a cluster, 1 / time^2.
+/// Needs columns.tide.
 double largest_rate_squared(const ClusterTable& clusters);
 
 /// Whether all clusters are sound.

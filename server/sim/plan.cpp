@@ -55,7 +55,6 @@ void decide_map(Plan& plan, const SimulationSettings& settings)
         plan.map = MapKind::Scalar;
     plan.map_is_exact = plan.unclustered || (plan.map == MapKind::Scalar && !position_dependent);
     plan.clocked = !plan.map_is_exact && plan.map != MapKind::Identity;
-    plan.turning = plan.turning && plan.clocked;
     const auto by_first = [](const RegionSettings& partition) {
         return partition.cluster_velocity == ClusterVelocity::First;
     };
@@ -82,6 +81,7 @@ void decide_phases(Plan& plan, const SimulationSettings& settings)
     runs(Phase::CloseKick, kicked);
     plan.substeps = kicked && settings.time.max_substeps > 1;
     plan.tides = kicked && (plan.clocked || plan.substeps);
+    plan.turning = plan.turning && plan.tides;
     runs(Phase::Snapshot, true);
     const bool drags = settings.linear_drag || plan.air;
     const bool rigid = plan.map == MapKind::Identity && !plan.unclustered;

@@ -8,11 +8,11 @@ namespace slod {
 
 Quarantined& Quarantined::operator+=(const Quarantined& other)
 {
+    const std::size_t known = ids().size(), room = most_named - known;
+    std::copy_n(other.first_ids.begin(), std::min(room, other.ids().size()),
+                first_ids.begin() + std::ptrdiff_t(known));
     particles += other.particles;
     mass += other.mass;
-    const std::size_t room = most_named - ids.size();
-    ids.insert(ids.end(), other.ids.begin(),
-               other.ids.begin() + std::ptrdiff_t(std::min(room, other.ids.size())));
     return *this;
 }
 
@@ -32,22 +32,20 @@ bool is_sound(const ClusterTable& clusters, std::size_t slot, double range)
            (!clusters.columns.map || is_finite(clusters.map[slot]));
 }
 
-Quarantined quarantine(SlodTree& tree, const UpdateContext& context, double range)
+Quarantined quarantine(SlodTree& tree, const UpdateContext& context, double range,
+                       std::vector<ClusterSlot>& unsound)
 {
     const ClusterTable& clusters = context.store.clusters;
     Quarantined taken;
-    std::vector<ClusterSlot> unsound;
-    ParticleSet members;
+    unsound.clear();
     for (std::uint32_t slot = 0; slot < clusters.slot_count(); ++slot) {
         if (!clusters.alive(slot) || is_sound(clusters, slot, range))
             continue;
         unsound.push_back({slot});
-        taken.particles += clusters.count[slot];
-        taken.mass += clusters.mass(slot);
-        members.resize(clusters.count[slot]);
-        map_out(context.store, {slot}, context.frame, members);
-        for (std::size_t i = 0; i < members.size() && taken.ids.size() < Quarantined::most_named; ++i)
-            taken.ids.push_back(members[i].id);
+        Quarantined members{.particles = clusters.count[slot], .mass = clusters.mass(slot)};
+        for (std::uint32_t i = 0; i < members.ids().size(); ++i)
+            members.first_ids[i] = member_at(context.store, {slot}, context.frame, i).id;
+        taken += members;
     }
     end_clusters(tree, unsound, context);
     return taken;

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/settings.hpp"
@@ -23,8 +27,13 @@ struct Quarantined {
     static constexpr std::size_t most_named = 8;
 
     std::uint64_t particles = 0;
-    double mass = 0;                ///< scene mass
-    std::vector<std::uint64_t> ids; ///< of the first of them, most_named at most
+    double mass = 0; ///< scene mass
+    std::array<std::uint64_t, most_named> first_ids{};
+
+    std::span<const std::uint64_t> ids() const ///< of the first of them
+    {
+        return std::span(first_ids).first(std::size_t(std::min<std::uint64_t>(particles, most_named)));
+    }
 
     Quarantined& operator+=(const Quarantined& other);
 };
@@ -44,8 +53,9 @@ inline bool is_finite(const FlowMap& map)
 bool is_sound(const ClusterTable& clusters, std::size_t slot, double range);
 
 /// Ends the clusters that are not, with their members: those of any one cluster have the centre in common, so
-/// none of them is known any more. Nobody else has seen them, so nobody else is changed by a bit.
-/// `context.frame` is that at whose end the members were last counted.
-Quarantined quarantine(SlodTree& tree, const UpdateContext& context, double range);
+/// none of them is known any more. `context.frame` is that at whose end the members were last counted;
+/// `unsound` is memory for a list of clusters.
+Quarantined quarantine(SlodTree& tree, const UpdateContext& context, double range,
+                       std::vector<ClusterSlot>& unsound);
 
 } // namespace slod

@@ -146,7 +146,8 @@ void check_winds(const SimulationSettings& settings, Problems& found)
     AirFields::for_each([&]<class F> { check(F::name, !elements(settings.fields.of<F>()).empty()); });
 }
 
-/// Sub-steps are those of kicks; flights to a collider and through air that differs are of a whole frame.
+/// Sub-steps are those of kicks; flights to a collider, into a sink and through air that differs are of a
+/// whole frame.
 void check_substeps(const SimulationSettings& settings, Problems& found)
 {
     if (settings.time.max_substeps == 1)
@@ -159,6 +160,7 @@ void check_substeps(const SimulationSettings& settings, Problems& found)
                 ", which acts over whole frames; use 1 and a smaller time.step, or leave that out.");
     };
     check("collider", !settings.colliders.empty());
+    check("sink", !settings.sinks.empty());
     check("quadratic_drag", settings.quadratic_drag.has_value());
     AirFields::for_each([&]<class F> { check(F::name, !elements(settings.fields.of<F>()).empty()); });
 }
@@ -254,7 +256,7 @@ Problems problems(const SimulationSettings& settings)
     check_units(settings.units, found);
     check_kinds(settings.kinds, found);
     check_colliders(settings.colliders, found);
-    check_fields(settings.fields, settings.time.step, found);
+    check_fields(settings.fields, settings.time.step / settings.time.max_substeps, found);
     check_names("emitter", settings.emitters, found);
     for (std::size_t i = 0; i < settings.emitters.size(); ++i)
         check_emitter("emitter." + std::to_string(i), settings.emitters[i], settings.kinds, found);

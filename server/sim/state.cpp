@@ -71,6 +71,7 @@ void Simulation::State::make_room()
     const std::uint64_t formed = moving + struck + kicked + drained;
     store.members.reserve(formed + formed / 2, store.clusters.alive_count() / 2 + 1024);
     store.clusters.reserve(store.clusters.alive_count() / 2 + 1024);
+    unsound.reserve(store.clusters.slot_capacity());
     if (plan.finite_lives)
         expiry.reserve(store.clusters);
     for (Subtree& subtree : tree.subtrees)
@@ -106,18 +107,23 @@ void Simulation::State::kick()
 /// Newborn clusters are kicked for as long as they have existed, the others for half a step.
 void Simulation::State::close_kick()
 {
-    if (!kick_clusters(store.clusters, 0.5 * substep))
-        take_out_unsound(frame);
+    bool sound = kick_clusters(store.clusters, 0.5 * substep);
     for (const Emission::NewCluster& born : emission.new_clusters()) {
         const std::size_t slot = born.id.slot.index;
-        if (store.clusters.alive(slot) && store.clusters.id(slot) == born.id) // else re-formed already
-            kick_cluster(store.clusters, slot, born.age - 0.5 * substep);
+        if (!store.clusters.alive(slot) || !(store.clusters.id(slot) == born.id))
+            continue; // re-formed already
+        kick_cluster(store.clusters, slot, born.age - 0.5 * substep);
+        sound = sound && is_sound(store.clusters, slot, range);
+        if (born.age * std::sqrt(store.clusters.rate_squared(slot)) > settings.time.substep_angle)
+            snapshot.counts.under_resolved = 1;
     }
+    if (!sound)
+        take_out_unsound(frame);
 }
 
 void Simulation::State::take_out_unsound(std::uint64_t counted)
 {
-    const Quarantined taken = quarantine(tree, {store, counted, settings.time.step}, range);
+    const Quarantined taken = quarantine(tree, {store, counted, settings.time.step}, range, unsound);
     snapshot.quarantined += taken;
     snapshot.counts.quarantined += taken.particles;
     snapshot.counts.died += taken.particles;
@@ -217,8 +223,12 @@ void Simulation::State::update()
         release_velocities(tree, store.clusters);
 }
 
+/// Here is the last chance to take out what was born, formed anew or put back out of range: forces see it
+/// next.
 void Simulation::State::measure_moments()
 {
+    if (settings.gravity && !all_sound(store.clusters, range))
+        take_out_unsound(time_left > 0 ? frame - 1 : frame);
     measure_shapes(store, gravity, gravitational_constant, frame);
     if (settings.gravity)
         build(view, tree, store.clusters, gravity);

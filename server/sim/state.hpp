@@ -105,7 +105,7 @@ struct Simulation::State {
         for (std::size_t i = 0; i < counts.size(); ++i) {
             snapshot.counts.fields[first + i] += counts[i];
             EffectWork& work = snapshot.effects[first_field_effect + first + i];
-            work.clusters += counts[i].clusters;
+            work.clusters = counts[i].clusters;
             work.ms += double(times_ns[i]) * 1e-6;
         }
     }
@@ -145,8 +145,9 @@ struct Simulation::State {
 
     ErrorMeter meter;
 
-    bool metering = false;     ///< errors are asked for in this frame
-    bool forces_stale = false; ///< a setting of gravity changed since they were evaluated
+    std::vector<ClusterSlot> unsound; ///< memory of quarantine()
+    bool metering = false;            ///< errors are asked for in this frame
+    bool forces_stale = false;        ///< a setting of gravity changed since they were evaluated
     std::uint64_t particle_count = 0;
     Snapshot snapshot;
 };

@@ -252,6 +252,7 @@ SmallScene encounters()
     scene.settings.kinds.front().softening = 1e-3;
     scene.settings.time.max_substeps = 8;
     scene.settings.time.substep_angle = 0.003;
+    scene.settings.fields.of<Attractor>().push_back({.strength = 30, .softening = 0.02});
     scene.initial.front().velocity = {1e29, 0, 0};
     return scene;
 }

@@ -66,7 +66,7 @@ TEST_F(AlarmsOfFrames, AreNoneWhereNothingIsWrong)
 TEST_F(AlarmsOfFrames, NameWhoWasTakenOutAndStay)
 {
     frame([](Snapshot& now) {
-        now.quarantined = {.particles = 2, .mass = 1, .ids = {17, 203}};
+        now.quarantined = {.particles = 2, .mass = 1, .first_ids = {17, 203}};
         now.counts.quarantined = 2;
     });
     const Alarm* alarm = look("quarantined");
@@ -125,6 +125,42 @@ TEST_F(AlarmsOfFrames, SumUpWhatRegionsThatDoNotAttractOthersBringIn)
     EXPECT_NE(look("dropped_momentum"), nullptr);
 }
 
+// Whose scale at the start is none.
+TEST(AlarmsOfASystemAtRest, KnowMomentumBesidesWhatMovesLater)
+{
+    const AlarmSettings limits{.energy_drift = 0.1, .momentum_drift = 0.1, .angular_momentum_drift = 0.1};
+    Alarms alarms({.conserved = {.mass = 1}, .potential_energy = -1});
+    EXPECT_EQ(alarms.unwatched(limits), std::vector<std::string_view>{"angular_momentum_drift"});
+    Snapshot falling;
+    falling.conserved = {.mass = 1, .momentum = {0.2, 0, 0}, .kinetic_energy = 0.5};
+    falling.potential_energy = -1.5;
+    alarms.add(falling, step);
+    EXPECT_TRUE(alarms.look(limits, {}));
+    ASSERT_EQ(alarms.present().size(), 1U); // 0.2 of a largest momentum of 1; the energy is what it was
+    EXPECT_EQ(alarms.present().front().name, "momentum_drift");
+}
+
+TEST_F(AlarmsOfFrames, BeginAnewWhereEffectsHaveChanged)
+{
+    limits_.momentum_drift = 0.05;
+    const ConservedQuantities pushed{.mass = 1, .momentum = {0.1, 0, 0}, .kinetic_energy = 0.5};
+    frame([&](Snapshot& now) { now.conserved = pushed; });
+    EXPECT_NE(look("momentum_drift"), nullptr);
+    alarms_.begin_anew({.conserved = pushed});
+    EXPECT_EQ(looks_until_gone("momentum_drift"), 5);
+    ASSERT_EQ(alarms_.past().size(), 1U);
+    EXPECT_EQ(alarms_.past().front().name, "momentum_drift");
+}
+
+TEST_F(AlarmsOfFrames, AtTheEndAreWeighedByWhatIsThen)
+{
+    limits_.momentum_drift = 0.05;
+    alarms_.look_at_end({.conserved = {.mass = 1, .momentum = {0.1, 0, 0}, .kinetic_energy = 0.5}}, limits_,
+                        {});
+    ASSERT_EQ(alarms_.present().size(), 1U);
+    EXPECT_EQ(alarms_.present().front().name, "momentum_drift");
+}
+
 TEST_F(AlarmsOfFrames, TellOfTheRest)
 {
     limits_.reformed = 0.5;
@@ -133,10 +169,13 @@ TEST_F(AlarmsOfFrames, TellOfTheRest)
         now.counts.reformed_members = 60;
         now.counts.births_refused = 7;
         now.counts.impacts_cut_off = 3;
+        now.counts.due_pools = 9;
+        now.counts.worn_pools = 1;
     });
-    for (const char* name : {"reformed", "births_refused", "impacts_cut_off", "unreachable"})
+    EXPECT_NE(look("reformed"), nullptr);
+    for (const char* name : {"births_refused", "impacts_cut_off", "unreachable", "worn_maps"})
         EXPECT_NE(look(name), nullptr) << name;
-    EXPECT_EQ(alarms_.present().size(), 4U);
+    EXPECT_EQ(alarms_.present().size(), 5U);
 }
 
 TEST(AlarmLimits, AreRefusedForWhatTheSceneDoesNotConserve)
@@ -156,6 +195,16 @@ TEST(AlarmLimits, AreRefusedForWhatTheSceneDoesNotConserve)
     EXPECT_EQ(problems(energy, settings).size(), 1U);
     settings.background.max_cluster_size = 1;
     EXPECT_EQ(problems(energy, settings), Problems{});
+    RegionOfInterest region;
+    region.name = "core";
+    region.partition.max_cluster_size = 8;
+    settings.regions = {region};
+    EXPECT_EQ(problems(energy, settings).size(), 1U);
+    settings.uniform_gravity.reset();
+    settings.linear_drag.reset();
+    EXPECT_EQ(problems(momentum, settings), Problems{});
+    settings.regions.front().partition.attracts = Attracts::Nothing;
+    EXPECT_EQ(problems(momentum, settings).size(), 1U);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "scene/galaxy_pair.hpp"
+#include "support/case_rows.hpp"
 
 namespace slod::test {
 
@@ -37,8 +39,8 @@ private:
     std::optional<std::string> old_;
 };
 
-/// A GADGET-2 file of one disc particle with the id 10.
-std::string one_particle()
+/// A GADGET-2 file of one disc particle with the id 10, at x.
+std::string one_particle(float x = 0)
 {
     std::string header(256, '\0');
     header[8] = 1; // count of type 2
@@ -48,7 +50,9 @@ std::string one_particle()
         return marker + payload + marker;
     };
     const std::string vector(12, '\0');
-    return record(header) + record(vector) + record(vector) + record(std::string("\n\0\0\0", 4)) +
+    std::string place = vector;
+    std::memcpy(place.data(), &x, sizeof x);
+    return record(header) + record(place) + record(vector) + record(std::string("\n\0\0\0", 4)) +
            record(std::string(4, '\0'));
 }
 
@@ -144,6 +148,18 @@ TEST(LoadInitial, AFileThatIsThereButUnusableIsNoReasonToFallBack)
     folder.write("mine", "rubbish");
     EXPECT_TRUE(
         only_says(refusal_of(gadget_scene("mine", InitialModel::Galaxy)), {"mine: no GADGET-2 file"}));
+}
+
+TEST(LoadInitial, N01_AParticleOutOfTheScenesRangeIsRefusedByName)
+{
+    const ScratchFolder folder;
+    Scene scene = gadget_scene(folder.write("mine", one_particle(3e22F)).string());
+    scene.simulation.gravity.emplace();
+    const bool refused =
+        only_says(refusal_of(scene), {"mine: particle 10 is out of the scene's range, 1e+21"});
+    test::expect_within("refused beyond 1e22 softening lengths, of 1", refused ? 1 : 0, 1, 1);
+    scene.simulation.gravity->precision = Precision::Double;
+    EXPECT_EQ(initial_of(scene).particles.size(), 1U);
 }
 
 TEST(LoadInitial, WithoutAFallbackAFileThatIsNotThereIsRefusedWithTheRemedy)

@@ -271,7 +271,7 @@ TEST(SimulationStep, TakesOutParticlesThatLeaveTheRangeOfNumbers)
         Simulation simulation(settings, stars_and_dust(30, 30), {});
         const Quarantined taken = run_dry(simulation);
         EXPECT_EQ(taken.particles, 60U) << names(motion)[std::size_t(motion)];
-        EXPECT_EQ(taken.ids.size(), Quarantined::most_named);
+        EXPECT_EQ(taken.ids().size(), Quarantined::most_named);
     }
 }
 
