@@ -26,6 +26,13 @@ Subject subject_of(const Grouping& grouping, std::uint32_t index)
             double(grouping.pull[index])};
 }
 
+/// Frames that a life counts shorter where its middle is asked for. Its forces kick at its beginning and at
+/// the ends of all its frames but the last, so 1 would treat past and future alike, and the drift of the
+/// energy would go to 0 with short lives whatever the softening and the closure. Forces of clusters are noise
+/// besides, which heats in proportion to the life; less than 1 is a friction. A third balances both at 4 to
+/// 16 particles a cluster.
+constexpr double early = 1.0 / 3;
+
 } // namespace
 
 Reforming::Reforming(const MotionSettings& motion, const UpdateContext& context)
@@ -202,7 +209,7 @@ void Reforming::map_out_due(SlodTree& tree)
 void Reforming::find_targets(SlodTree& tree)
 {
     const auto midway = [&](const Particle& particle, std::uint64_t life) -> Vector3d {
-        return particle.position + (0.5 * context_.step * double(life)) * particle.velocity;
+        return particle.position + (0.5 * context_.step * (double(life) - early)) * particle.velocity;
     };
     std::atomic<bool> bounded{true};
     for_each_block(due_.size(), 4, [&](std::size_t begin, std::size_t end) {

@@ -68,21 +68,22 @@ void expect_all_stay(const SimulationSettings& settings, bool (*inside)(const Ve
     }
     const ParticleSet now = simulation.particles();
     ASSERT_EQ(now.size(), initial.size());
+    std::size_t out = 0;
     for (std::size_t i = 0; i < now.size(); ++i) {
         EXPECT_EQ(now[i].id, initial[i].id);
         EXPECT_EQ(now[i].mass, initial[i].mass);
-        EXPECT_TRUE(inside(now[i].position, 2))
-            << "particle " << now[i].id << " at " << now[i].position.transpose();
+        out += inside(now[i].position, 2) ? 0 : 1;
     }
+    expect_at_most("particles out of the room, of " + std::to_string(now.size()), double(out), 0);
 }
 
-TEST_P(ClosedRoom, LosesNobodyAndLetsNobodyOut)
+TEST_P(ClosedRoom, F10_LosesNobodyAndLetsNobodyOut)
 {
     expect_all_stay(settings(), inside);
 }
 
 // A hollow cube with walls of a millimetre, and a smaller one in its middle.
-TEST_P(ClosedRoom, OfTrianglesLosesNobodyAndLetsNobodyOut)
+TEST_P(ClosedRoom, F10_OfTrianglesLosesNobodyAndLetsNobodyOut)
 {
     SimulationSettings scene = settings();
     scene.colliders = {with(sheet(box_mesh({2, 2, 2})), 0.9, 0.1),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 #include "core/formatted.hpp"
@@ -27,14 +28,28 @@ void take(TestFindings& test, const Measurement& row)
         *known = row;
 }
 
+/// What comes after the name of a test that runs with several parameters; empty where there is none.
+std::string parameter_of(const std::string& test)
+{
+    const std::size_t name = test.find('.'), slash = test.find('/', name);
+    return name == std::string::npos || slash == std::string::npos ? "" : test.substr(slash + 1);
+}
+
 void take(TestFindings& test, const TestRun& run)
 {
     ++test.runs;
     test.failed += run.passed ? 0 : 1;
     test.ended = test.ended && run.ended;
-    for (const Measurement& row : run.rows)
+    const std::string parameter = parameter_of(run.test);
+    for (Measurement row : run.rows) {
+        if (!parameter.empty() && std::isinf(row.room())) // nothing says which run would be worth showing
+            row.quantity += ", " + parameter;
         take(test, row);
-    test.pictures.insert(test.pictures.end(), run.pictures.begin(), run.pictures.end());
+    }
+    for (test::CasePicture picture : run.pictures) {
+        picture.title += parameter.empty() ? "" : ", " + parameter;
+        test.pictures.push_back(std::move(picture));
+    }
 }
 
 /// The case of a run, which is added where no catalogue has it.

@@ -193,11 +193,11 @@ TEST(AbsurdStep, N05_OfABillionthOfABillionthMovesBodiesAsFarAsItsTime)
     expect_at_most("sub-steps a frame", double(course.substeps) / 1000, 1);
 }
 
-TEST(AbsurdStep, N05_OfAMillionIsCutIntoAsManyAsAllowedAndFlagged)
+TEST(AbsurdStep, N05_OfAMillionIsCutIntoAtLeastHalfOfTheStepsAllowedAndFlagged)
 {
     const Course course = run(point_masses(1e6, 100, 0.1), eccentric(0), 1e6);
     expect_within("frames flagged under-resolved, of 1", double(course.under_resolved), 1, 1);
-    expect_at_most("sub-steps of the frame", double(course.substeps), 100);
+    expect_within("sub-steps of the frame, of 100 allowed", double(course.substeps), 50, 100);
     for (const Particle& body : course.end)
         EXPECT_TRUE(body.position.allFinite() && body.velocity.allFinite()) << "body " << body.id;
 }

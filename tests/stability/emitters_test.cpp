@@ -89,31 +89,22 @@ TEST_P(InCrowds, F30_WhatDiesOfTwoCausesInAFrameDiesOnce)
     }
 }
 
-// No emitter is taken or given up while a scene runs, and one that makes no sense changes not a bit.
-TEST(RunningScene, F32_TakesNoEmitterThatMakesNoSense)
+// None is taken or given up while a scene runs, of whatever sense: particles are counted by emitter.
+TEST(RunningScene, F32_TakesNoOtherEmitters)
 {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN(),
-                     infinity = std::numeric_limits<double>::infinity();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const SmallScene scene = small_scene("fountain");
     Simulation simulation(scene.settings, scene.initial, {}), other(scene.settings, scene.initial, {});
     run(simulation, 20);
     run(other, 20);
-    int asked = 0, refused = 0;
-    const auto ask = [&](auto EmitterSettings::*field, const auto& value) {
+    int refused = 0;
+    for (const double rate : {1.0, none, std::numeric_limits<double>::infinity()}) {
         SimulationSettings wanted = scene.settings;
-        wanted.emitters[0].*field = value;
-        ++asked;
-        refused += simulation.change_settings(wanted).empty() ? 0 : 1;
-    };
-    for (const double value : {none, infinity, -infinity}) {
-        ask(&EmitterSettings::rate, value);
-        ask(&EmitterSettings::speed, value);
-        ask(&EmitterSettings::position, Vector3d(0, value, 0));
-        ask(&EmitterSettings::direction, Vector3d(value, 0, 1));
+        wanted.emitters[0].rate = rate;
+        const Problems found = simulation.change_settings(wanted);
+        refused += !found.empty() && found.front().starts_with("emitter") ? 1 : 0;
     }
-    ask(&EmitterSettings::direction, Vector3d(0, 0, 0));
-    expect_within("refused, of 13", refused, 13, 13);
-    EXPECT_EQ(asked, 13);
+    expect_within("refused, of 3", refused, 3, 3);
     EXPECT_EQ(simulation.state_hash(), other.state_hash());
     run(simulation, 20);
     run(other, 20);
@@ -202,16 +193,16 @@ Flood flood(int threads)
 }
 
 // As many as the scene may have, in the order of their starts; the others are counted. A million in clusters
-// of 64 at most are 15,625 at least, and twice that where planes divide them into halves again and again.
+// of 64 at most are 15,625 at least.
 TEST(Flood, F31_AMillionAreBornInAFrameAndTheOthersRefused)
 {
     const Flood alone = flood(1), shared = flood(3);
     expect_within("born, of 1.2 million", double(alone.born), 1e6, 1e6);
     expect_within("refused", double(alone.refused), 2e5, 2e5);
     expect_at_most("particles, of 1 million allowed", double(alone.particles), 1e6);
-    expect_at_most("clusters of that frame, of the least", alone.clusters / 15'625, 2);
+    expect_at_most("clusters of that frame, of the least", alone.clusters / 15'625, 1);
     expect_at_most("clusters of that frame, of those five frames on", alone.clusters / alone.later_clusters,
-                   3);
+                   1);
     EXPECT_EQ(shared.hash, alone.hash) << "the order depends on threads";
 }
 

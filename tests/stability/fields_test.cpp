@@ -176,7 +176,7 @@ TEST(Crowding, F28_TenThousandCoincidentParticlesStayFiniteAndTheirWorkBounded)
                                0.125);
             expect_at_most("others looked at for a merge, by cluster", double(counts.pair_tests) / before,
                            256);
-            expect_at_most("impacts by particle", double(counts.impacts) / count, Colliders::most_meetings);
+            expect_at_most("impacts by particle", double(counts.impacts) / count, 8);
             expect_at_most("pairs summed, of all", double(counts.interactions) / (clusters * clusters), 1);
             for (const FieldCount& field : counts.fields)
                 expect_at_most("evaluations of a field by particle", double(field.clusters) / count, 2);

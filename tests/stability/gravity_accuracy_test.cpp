@@ -175,7 +175,7 @@ TEST_P(GravityAccuracy, G30_ShiftsChangeForcesByTheTreesErrorAtMost)
         bulk_sum += bulk / shifts;
         bulk_squares += bulk.squaredNorm() / shifts;
     }
-    // The mean of 32 random vectors: their rms over sqrt(32), and that exceeds twice itself once in 10,000.
+    // The mean of 32 random vectors: their rms over sqrt(32), and that exceeds twice itself once in 135.
     expect_at_most("mean bulk pull of 32 shifts, of the rms one over sqrt(32)",
                    bulk_sum.norm() / std::sqrt(bulk_squares / shifts), 2);
 }

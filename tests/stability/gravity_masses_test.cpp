@@ -121,10 +121,10 @@ TEST_P(SoftPair, G34_WithinItsSofteningPullsAsASpring)
         world.evaluate();
         const double expected = distance / std::pow(distance * distance + eps * eps, 1.5);
         for (const Vector3d& pull : world.by_id())
-            formula = std::max(formula, std::abs(pull.norm() / expected - 1));
+            formula = worse(formula, std::abs(pull.norm() / expected - 1));
         if (share < 1e-3) {
-            spring = std::max(spring, std::abs(world.by_id()[0].norm() * std::pow(eps, 3) / distance - 1));
-            tide = std::max(tide, (world.tide(0) * std::pow(eps, 3) + Matrix3d::Identity()).norm());
+            spring = worse(spring, std::abs(world.by_id()[0].norm() * std::pow(eps, 3) / distance - 1));
+            tide = worse(tide, (world.tide(0) * std::pow(eps, 3) + Matrix3d::Identity()).norm());
         }
         curve.x.push_back(share);
         curve.y.push_back(world.by_id()[0].norm());

@@ -210,11 +210,12 @@ TEST(SlodStability, S03_EveryMergeKeepsTheBoundThatThePapersFormulasBreak)
         direction_broken += turn > share * 90 * degree ? 1 : 0;
     }
     ASSERT_GT(merged, 15'000U);
-    // In 1e6 other random merges of such masses 2.6 % broke the one and 7.5 % the other formula. Of 15,000
-    // such a share is off by 0.2 %.
-    expect_within("share of merges that break the paper's formulas",
-                  double(speed_broken + direction_broken) / double(merged), 0.01, 0.08);
-    report_value("of these, share that break that of speed", double(speed_broken) / double(merged));
+    // In 1e6 other random merges of such masses 7.5 % turned one by more than the paper's formula says; 0.2 %
+    // is what 15,000 are off by. The ratio of 4 lets no speed break the other formula, as they are of 0.5
+    // to 2.
+    expect_within("share of merges that break the paper's formula of directions",
+                  double(direction_broken) / double(merged), 0.065, 0.085);
+    report_value("share that break that of speeds", double(speed_broken) / double(merged));
 }
 
 Particle flying(const Vector3d& direction, std::uint64_t id)

@@ -112,7 +112,8 @@ void move_regions(SceneEditor& editor, std::uint64_t frame)
 /// Such a scene under way, with what clients and a controller do to it.
 class Soaked {
 public:
-    explicit Soaked(Motion motion) : Soaked(everything(motion))
+    explicit Soaked(const SmallScene& scene)
+        : simulation_(scene.settings, scene.initial, {}), editor_(simulation_)
     {
         loop_.control.mode = ControlMode::Smooth;
         loop_.server.frame_rate = 100;
@@ -138,10 +139,6 @@ public:
     std::uint64_t decisions() const { return regulator_.report().decisions; }
 
 private:
-    explicit Soaked(const SmallScene& scene)
-        : simulation_(scene.settings, scene.initial, {}), editor_(simulation_)
-    {}
-
     Simulation simulation_;
     SceneEditor editor_;
     Regulator regulator_{true};
@@ -161,9 +158,10 @@ TEST(Soak, N20_EverythingAtOnceStaysSoundAndTakesNoMoreMemory)
     std::size_t unsound = 0;
     std::uint64_t decisions = 0;
     ThreadTeam(3).run([&] {
-        Soaked flow(Motion::Flow), rigid(Motion::Rigid);
+        Soaked flow(everything(Motion::Flow)), rigid(everything(Motion::Rigid)),
+            close(small_scene("encounters"));
         for (std::uint64_t frame = 1; frame <= frames; ++frame) {
-            for (Soaked* run : {&flow, &rigid}) {
+            for (Soaked* run : {&flow, &rigid, &close}) {
                 run->step(frame);
                 if (frame % (frames / 50) != 0)
                     continue;
@@ -179,6 +177,7 @@ TEST(Soak, N20_EverythingAtOnceStaysSoundAndTakesNoMoreMemory)
         decisions = std::min(flow.decisions(), rigid.decisions());
         add_events(all, flow.events());
         add_events(all, rigid.events());
+        add_events(all, close.events());
     });
     for_each_event(all, [](std::string_view name, std::uint64_t count) { EXPECT_GT(count, 0U) << name; });
     report_value("frames", double(frames));

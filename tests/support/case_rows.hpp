@@ -41,6 +41,12 @@ inline void expect_within(std::string_view quantity, double measured, double lea
     expect_limits(quantity, measured, {least, most}, where);
 }
 
+/// The larger of the two, and what is no number where one is: a NaN is the worst there is.
+inline double worse(double one, double other)
+{
+    return !(other <= one) ? other : one;
+}
+
 /// A measured value that nothing is held to, for the report's reader.
 inline void report_value(std::string_view quantity, double measured,
                          std::source_location where = std::source_location::current())

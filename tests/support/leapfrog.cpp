@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/case_rows.hpp"
+
 namespace slod::test {
 namespace {
 
@@ -41,7 +43,7 @@ double largest_distance(const ParticleSet& a, const ParticleSet& b)
 {
     double largest = a.size() == b.size() ? 0 : INFINITY;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        largest = std::max(largest, (a[i].position - b[i].position).norm());
+        largest = worse(largest, (a[i].position - b[i].position).norm());
     return largest;
 }
 
