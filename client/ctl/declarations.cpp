@@ -184,7 +184,7 @@ void declare_set(CLI::App& app, CommandLine& line)
     add_settings(
         app, "SETTING", line.request,
         "table.key=value as in a scene file, of what may change while it runs: effects, background, control, "
-        "meter, server.frame_rate")
+        "alarms, meter, server.frame_rate")
         ->required();
     declare_simple(app, line);
 }

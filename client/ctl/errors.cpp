@@ -20,7 +20,7 @@ Json row_of(const std::string& region, const client::MeasuredError& error)
             {"p90_%", percent(error.p90.value)},
             {"p99_%", percent(error.p99.value)},
             {"max_%", percent(error.max)},
-            {"target_%", percent(error.target)}};
+            {"target_%", error.target > 0 ? Json(percent(error.target)) : Json("-")}};
 }
 
 } // namespace

@@ -56,6 +56,10 @@ ExitCode run_steering(const CommandLine& line, const std::stop_token& stop)
     const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
+    if (connection.other_servers() > 0) {
+        complain("nothing was sent: it would meet one of them by chance");
+        return ExitCode::Failure;
+    }
     const std::uint64_t number = commander.send(line.request, connection.server()->session);
     std::optional<client::CommandAnswer> answer;
     const auto answered = [&] { return (answer = commander.take_answer(number)).has_value(); };

@@ -9,15 +9,23 @@
 
 namespace slod::ctl {
 
-/// Waits for a server; says what to do when there is none.
+/// Waits for a server; says what to do when there is none, and warns when more are heard, of which one is
+/// followed.
 inline bool wait_for_server(client::Connection& connection, const std::stop_token& stop,
                             client::Clock::time_point end)
 {
     const auto present = [&] { return connection.status().contact != client::Contact::NoServer; };
-    if (wait_until(connection, stop, end, present))
-        return true;
-    complain(no_server_sentence(connection.status()));
-    return false;
+    if (!wait_until(connection, stop, end, present)) {
+        complain(no_server_sentence(connection.status()));
+        return false;
+    }
+    constexpr std::chrono::milliseconds others{100}; // what a server last said reaches who joins late at once
+    wait_until(connection, stop, client::Clock::now() + others, [] { return false; });
+    if (connection.other_servers() > 0)
+        complain("warning: " + std::to_string(1 + connection.other_servers()) +
+                 " servers are heard on this domain, and this is of one of them, \"" +
+                 connection.server()->scene_title + "\"; give each its own (--domain, wire.domain)");
+    return true;
 }
 
 /// Waits until the first of what the server tells at once has come, and then for the rest of it. Where

@@ -56,7 +56,8 @@ void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
         ->check(at_least_zero<std::uint32_t>())
         ->option_text("N");
     app.add_flag("--no-dds", shorthands.no_dds, "Short for --set wire.enabled=false");
-    app.add_option("--domain", shorthands.domain, "Short for --set wire.domain=N")
+    app.add_option("--domain", shorthands.domain,
+                   "Short for --set wire.domain=N, but of this run alone: input logs do not have it")
         ->check(at_least_zero<std::uint32_t>())
         ->option_text("N");
     app.add_option("--report", line.report, "Write figures of the run, as JSON, at its end")

@@ -54,6 +54,11 @@ Problems unchangeable(const std::vector<Assignment>& settings)
         if (std::find(tables.begin(), tables.end(), table) != tables.end())
             continue;
         const std::string* const meant = nearest(table, tables);
+        if (assignment.key.find('.') == std::string::npos) {
+            found.push_back(assignment.key + " is of no table; write table.key, such as background." +
+                            assignment.key + ". What can change is in " + joined(tables) + ".");
+            continue;
+        }
         found.push_back(assignment.key + " cannot change while the scene runs; " +
                         (meant != nullptr
                              ? "did you mean " + *meant + "?"

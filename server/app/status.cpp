@@ -51,13 +51,13 @@ std::string speed_text(double real_time_factor)
     return readable ? fmt::format("x{:.2f}", real_time_factor) : duration_text(real_time_factor) + "/s";
 }
 
-/// Of the background, where a controller turns it: " of 23.5, holding".
+/// Where a controller turns it, and the background's largest cluster: " holding, size 23.5".
 std::string size_text(const Snapshot& snapshot, const ControlReport& regulation)
 {
     if (regulation.state == ControlState::Off)
         return {};
-    return fmt::format(" of {:.3g}, {}", snapshot.regions.back().max_cluster_size,
-                       names(regulation.state)[std::size_t(regulation.state)]);
+    return fmt::format(" {}, size {:.3g}", names(regulation.state)[std::size_t(regulation.state)],
+                       snapshot.regions.back().max_cluster_size);
 }
 
 /// Median and the interval it is in: "  error 0.31 % (0.28 to 0.35)".
@@ -83,11 +83,11 @@ std::string alarm_text(std::span<const Alarm> alarms)
 std::string status_line(const RunStatus& status)
 {
     const auto& [snapshot, means, plan, regulation, error, alarms] = status;
-    return fmt::format("frame {}{}  t {:.4g}  {:.1f} fps  {}  {} particles  {} clusters{}{}  {:.1f} ms:{}",
-                       snapshot.frame, alarm_text(alarms), snapshot.time, means.frame_rate_hz,
-                       speed_text(means.real_time_factor), grouped(snapshot.counts.particles),
-                       grouped(snapshot.counts.clusters), size_text(snapshot, regulation), error_text(error),
-                       means.work_ms, longest_phases(means.profile, plan));
+    return fmt::format("frame {}{}  {:.1f} fps{}{}  {:.1f} ms  {} clusters of {} particles  t {:.4g}  {}:{}",
+                       snapshot.frame, alarm_text(alarms), means.frame_rate_hz,
+                       size_text(snapshot, regulation), error_text(error), means.work_ms,
+                       grouped(snapshot.counts.clusters), grouped(snapshot.counts.particles), snapshot.time,
+                       speed_text(means.real_time_factor), longest_phases(means.profile, plan));
 }
 
 std::string status_record(const RunStatus& status)

@@ -241,6 +241,20 @@ TEST_F(WireSlodctl, AStalledServerIsToldFromADeadOne)
     EXPECT_TRUE(says(connection, "silent")) << connection.status().reason;
 }
 
+TEST_F(WireSlodctl, OfTwoServersOnADomainNoneIsSteered)
+{
+    Child one(source("0")), two(source("0"));
+    Connection connection = connect();
+    ASSERT_TRUE(eventually([&] {
+        connection.wait(std::stop_token(), std::chrono::milliseconds(20));
+        return connection.other_servers() == 1;
+    }));
+    Child pause(slodctl({"pause", "--timeout", "30"}));
+    EXPECT_EQ(pause.wait(), int(ExitCode::Failure));
+    EXPECT_NE(pause.errors().find("2 servers are heard"), std::string::npos) << pause.errors();
+    EXPECT_NE(pause.errors().find("nothing was sent"), std::string::npos) << pause.errors();
+}
+
 TEST_F(WireSlodctl, AServerThatIsStoppedTakesLeave)
 {
     Child server(source("0"));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/simulation.hpp"
+#include "support/case_rows.hpp"
 #include "support/clouds.hpp"
 #include "support/meshes.hpp"
 #include "support/random_draws.hpp"
