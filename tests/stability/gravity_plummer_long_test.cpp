@@ -85,13 +85,14 @@ INSTANTIATE_TEST_SUITE_P(InClustersOf, LongClusteredPlummerSphere, testing::Valu
                          testing::PrintToStringParamName());
 
 // Stars that share a cluster do not meet each other as they would, and clusters are formed anew: that changes
-// the energy, little in a crossing, without end in many. What is held is 5 %, as of single stars, for a tenth
-// of the run.
-TEST_P(LongClusteredPlummerSphere, G10_InFlowKeepsItsRadiusForTenCrossingsAndLongerThanInRigidMotion)
+// the energy without end, by what the noise of their forces heats less what the middle of a life takes. What
+// is held is 5 % of r50 after the whole run, the relaxation time, as of single stars, and a fifth of what
+// rigid motion does.
+TEST_P(LongClusteredPlummerSphere, G10_InFlowKeepsItsRadiusForAHundredCrossingsWhereRigidMotionLosesIt)
 {
     const ParticleSet start = plummer_in_equilibrium(10'000, 1);
     std::vector<SystemHistory> histories;
-    std::vector<double> early_changes;
+    std::vector<double> changes;
     for (const Motion motion : {Motion::Flow, Motion::Rigid}) {
         const std::string name(names(motion)[std::size_t(motion)]);
         histories.push_back(hundred_crossings(name, start, settings_of(GetParam(), motion)));
@@ -100,14 +101,14 @@ TEST_P(LongClusteredPlummerSphere, G10_InFlowKeepsItsRadiusForTenCrossingsAndLon
         report_value("change of r50, " + name, history.change_at_the_end(&SystemMeasures::r50));
         report_value("change of r90, " + name, history.change_at_the_end(&SystemMeasures::r90));
         report_value("change of the energy, " + name, history.change_at_the_end(&SystemMeasures::energy));
+        changes.push_back(std::abs(history.change_at_the_end(&SystemMeasures::r50)));
         SystemHistory early = history;
         early.looks.resize(1 + looks / 10);
-        early_changes.push_back(early.largest_change(&SystemMeasures::r50));
         report_value("change of the energy in ten crossings, " + name,
                      early.change_at_the_end(&SystemMeasures::energy));
     }
-    expect_at_most("largest change of r50 in ten crossings in flow", early_changes[0], 0.05);
-    expect_at_most("the same, of that in rigid motion", early_changes[0] / early_changes[1], 1);
+    expect_at_most("change of r50 in a hundred crossings in flow", changes[0], 0.05);
+    expect_at_most("the same, of that in rigid motion", changes[0] / changes[1], 0.2);
     report_history("Plummer sphere of 10,000 stars in clusters of " + std::to_string(GetParam()), histories);
 }
 

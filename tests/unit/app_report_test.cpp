@@ -193,8 +193,9 @@ TEST(Status, IsReadableForPeopleAndForPrograms)
 {
     LoopMeans means;
     means.real_time_factor = 1;
-    EXPECT_NE(status_line({snapshot(8, 0), means, {}}).find("20 clusters of 1,234,567 particles  t 0  x1.00"),
-              std::string::npos);
+    const std::string line = status_line({snapshot(8, 0), means, {}});
+    EXPECT_NE(line.find(" 20 clusters of 1,234,567 particles  t "), std::string::npos) << line;
+    EXPECT_NE(line.find("  x1.00:"), std::string::npos) << line;
     means.real_time_factor = 3.15576e15;
     EXPECT_NE(status_line({snapshot(8, 0), means, {}}).find("100 Myr/s"), std::string::npos);
     EXPECT_NE(status_record({snapshot(8, 0), means, {}}).find(" particles=1234567 "), std::string::npos);
