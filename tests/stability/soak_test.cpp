@@ -93,9 +93,11 @@ double slope(const std::vector<double>& x, const std::vector<double>& y)
     return xy / xx;
 }
 
-/// Regions that go round and come and go, as clients move them.
+/// Regions that go round and come and go, as clients move them, in scenes that have them.
 void move_regions(SceneEditor& editor, std::uint64_t frame)
 {
+    if (editor.find("spring") == nullptr)
+        return;
     const double turn = 0.05 * double(frame % 1257); // 20 pi
     RegionOfInterest spring = editor.find("spring")->settings, plank = editor.find("plank")->settings;
     spring.centre = {0.8 * std::cos(turn), 0.8 * std::sin(turn), 0.4};
