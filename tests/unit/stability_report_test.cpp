@@ -105,6 +105,23 @@ TEST(StabilityReport, KeepsApartWhatIsHeldToOtherLimits)
     EXPECT_EQ(findings.cases[1].tests.at(0).rows.size(), 2U);
 }
 
+// No run of them leaves less room than another.
+TEST(StabilityReport, ShowsWhatIsHeldToNothingAndPicturesOfEachParameter)
+{
+    std::vector<TestRun> runs{slope("8", 2.0), slope("16", 2.0)};
+    for (TestRun& run : runs) {
+        run.rows[0].limits = {};
+        run.pictures = {{.title = "Radii"}};
+    }
+    const Findings findings = find(catalogue(), {runs, {}});
+    const TestFindings& test = findings.cases[1].tests.at(0);
+    ASSERT_EQ(test.rows.size(), 2U);
+    EXPECT_EQ(test.rows[0].quantity, "slope, 8");
+    EXPECT_EQ(test.rows[1].quantity, "slope, 16");
+    ASSERT_EQ(test.pictures.size(), 2U);
+    EXPECT_EQ(test.pictures[1].title, "Radii, 16");
+}
+
 TEST(StabilityReport, KnowsATestByItsNameWithoutParameters)
 {
     EXPECT_EQ(plain_name("Suite.G01_Name"), "Suite.G01_Name");
