@@ -111,7 +111,7 @@ TEST(StabilityReport, ShowsWhatIsHeldToNothingAndPicturesOfEachParameter)
     std::vector<TestRun> runs{slope("8", 2.0), slope("16", 2.0)};
     for (TestRun& run : runs) {
         run.rows[0].limits = {};
-        run.pictures = {{.title = "Radii"}};
+        run.pictures.emplace_back().title = "Radii";
     }
     const Findings findings = find(catalogue(), {runs, {}});
     const TestFindings& test = findings.cases[1].tests.at(0);
