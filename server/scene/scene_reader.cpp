@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -189,6 +191,17 @@ void name_causes(Problems& found, const SceneText& text, const std::vector<std::
             found[at].insert(0, causes[at] + "beside ");
 }
 
+/// The line that a problem, "file:12: what", names; the largest number where it names none.
+unsigned long line_of(const std::string& problem)
+{
+    const std::size_t end = problem.find(": ");
+    const std::size_t colon = end == std::string::npos ? end : problem.rfind(':', end - 1);
+    unsigned long line = std::numeric_limits<unsigned long>::max();
+    if (colon != std::string::npos)
+        std::from_chars(problem.data() + colon + 1, problem.data() + end, line);
+    return line;
+}
+
 } // namespace
 
 std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vector<std::string>& overrides)
@@ -197,6 +210,8 @@ std::variant<Scene, Problems> load_scene(const SceneText& text, const std::vecto
     if (auto* const found = std::get_if<Problems>(&read)) {
         name_causes(*found, text, overrides);
         *found = one_line_each(std::move(*found));
+        std::stable_sort(found->begin(), found->end(),
+                         [](const std::string& a, const std::string& b) { return line_of(a) < line_of(b); });
     }
     return read;
 }

@@ -86,6 +86,19 @@ TEST(SceneReader, AnUnknownKeyThatIsLikeNoneListsAll)
                           {"duration", "known are step, max_substeps, substep_angle."}));
 }
 
+TEST(SceneReader, ProblemsComeInTheOrderOfTheirLines)
+{
+    const Problems found = problems_of(
+        minimal_scene + "[motion]\nclock = 100\n[time]\nstep = 0\n[meter]\nshare = 2\n" + "[nonsense]\n");
+    ASSERT_EQ(found.size(), 4U);
+    unsigned long last = 0;
+    for (const std::string& problem : found) {
+        const unsigned long line = std::stoul(problem.substr(problem.find(':') + 1));
+        EXPECT_GT(line, last) << problem;
+        last = line;
+    }
+}
+
 TEST(SceneReader, N03_AStepOfLengthZeroIsRefused)
 {
     const bool refused = only_says(problems_of(minimal_scene + "[time]\nstep = 0\n"), {"time.step", "1e-12"});
