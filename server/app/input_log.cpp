@@ -97,11 +97,17 @@ LoggedCommand command_from(const Json& line)
             .settings = settings_from(line.value("settings", std::vector<std::string>()))};
 }
 
-/// Makes the folder if need be.
+/// Makes the folder if need be. A log that is there is kept under another name.
 std::filesystem::path log_in(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
-    return folder / "input.log";
+    const std::filesystem::path log = folder / "input.log";
+    for (int number = 1; std::filesystem::exists(log); ++number) {
+        const std::filesystem::path older = folder / ("input-" + std::to_string(number) + ".log");
+        if (!std::filesystem::exists(older))
+            std::filesystem::rename(log, older);
+    }
+    return log;
 }
 
 /// Takes in one line after the header.

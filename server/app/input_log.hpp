@@ -67,7 +67,8 @@ std::variant<InputLog, Problems> read_input_log(const std::filesystem::path& fil
 /// Writes a log as the run goes, so that what a crash leaves can still be read.
 class InputLogWriter {
 public:
-    /// Makes `folder` if need be and starts its input.log anew. Throws std::system_error.
+    /// Makes `folder` if need be and starts its input.log; an older one becomes input-1.log, or the next
+    /// number that is free. Throws std::system_error.
     InputLogWriter(const std::filesystem::path& folder, const InputLogHeader& header);
 
     /// Throws std::system_error, as does finish().

@@ -54,6 +54,21 @@ protected:
                                 .settings = {{"centre", "[1.0, 2.0, 3.0]"}, {"follows", "\"a=b\""}}};
 };
 
+TEST_F(InputLogTest, AnOlderOneIsKept)
+{
+    for (int run = 1; run <= 3; ++run) {
+        InputLogHeader header = header_;
+        header.input = "run " + std::to_string(run);
+        InputLogWriter(folder_, header).finish({.frames = 1, .state_hash = 1});
+    }
+    EXPECT_EQ(read().header.input, "run 3");
+    for (const auto& [name, input] : {std::pair("input-1.log", "run 1"), std::pair("input-2.log", "run 2")}) {
+        const auto log = read_input_log(folder_ / name);
+        ASSERT_TRUE(std::holds_alternative<InputLog>(log)) << name;
+        EXPECT_EQ(std::get<InputLog>(log).header.input, input);
+    }
+}
+
 TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
 {
     InputLogWriter writer(folder_, header_);
