@@ -117,8 +117,11 @@ void Simulation::State::close_kick()
         if (born.age * std::sqrt(store.clusters.rate_squared(slot)) > settings.time.substep_angle)
             snapshot.counts.under_resolved = 1;
     }
-    if (!sound)
-        take_out_unsound(frame);
+    if (sound)
+        return;
+    take_out_unsound(frame);
+    if (settings.gravity)
+        build(view, tree, store.clusters, gravity); // which showed them
 }
 
 void Simulation::State::take_out_unsound(std::uint64_t counted)

@@ -115,6 +115,27 @@ TEST(Quarantine, N01_TakesOutWhatIsBornOutOfRangeBeforeForcesSeeIt)
     expect_within("of the others left, of 64", double(simulation.particles().size()), 64, 64);
 }
 
+// A body without weight comes near the heavy one in one step, and is thrown out by the kick that closes it;
+// what forces are evaluated of does not show it any more.
+TEST(Quarantine, N01_TakesOutWhatTheClosingKickThrowsOut)
+{
+    constexpr double far = 1e12, pull = 1e30, near = 1e-3;
+    SimulationSettings settings = quiet_settings();
+    settings.background.max_cluster_size = 1;
+    settings.kinds.front().softening = 1e-3;
+    settings.gravity.emplace();
+    settings.gravity->strength = pull;
+    const double step = settings.time.step, opening_kick = 0.5 * step * pull / (far * far);
+    Simulation simulation(
+        settings,
+        {{{0, 0, 0}, {0, 0, 0}, 1, 1}, {{far, 0, 0}, {opening_kick - (far - near) / step, 0, 0}, lost_id, 0}},
+        {});
+    const Snapshot& now = simulation.step({});
+    expect_within("particles taken out", double(now.quarantined.particles), 1, 1);
+    EXPECT_EQ(now.quarantined.first_ids.front(), lost_id);
+    EXPECT_EQ(simulation.problems(), Problems{});
+}
+
 // A field that is infinite where a particle is, within one frame.
 TEST(Quarantine, N01_TakesAParticleThatAFieldThrowsOut)
 {
