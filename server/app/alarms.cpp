@@ -7,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "app/publish_fields.hpp"
+#include "app/run_summary.hpp"
 
 namespace slod {
 namespace {
@@ -16,11 +17,6 @@ constexpr int looks_to_forget = 5;
 std::string percent(double share)
 {
     return fmt::format("{:.3g} %", 100 * share);
-}
-
-double ratio(double change, double scale)
-{
-    return scale > 0 ? change / scale : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string drift_text(std::string_view what, double drift, double limit)
@@ -91,13 +87,25 @@ void Alarms::weigh_all(const AlarmSettings& limits, const ControlReport& regulat
     weigh("dropped_momentum", Warning, weigh_dropped(limits.dropped_momentum));
     weigh("reformed", Warning, weigh_reforming(limits.reformed));
     weigh("worn_maps", Warning, weigh_maps(limits.worn_maps));
-    weigh("births_refused", Warning, weigh_births());
-    weigh("impacts_cut_off", Warning, weigh_impacts());
+    weigh("births_refused", Warning,
+          counted(events_.births_refused,
+                  "particles were not emitted, as there are limits.max_particles; raise "
+                  "that, or emit less."));
+    weigh("impacts_cut_off", Warning,
+          counted(events_.impacts_cut_off,
+                  "flights had more impacts in a frame than are followed, and ended on "
+                  "a surface; use a smaller time.step."));
     const bool unreachable = regulation.state == ControlState::Unreachable;
     weigh("unreachable", Warning,
           {1, unreachable ? "The frame rate or error asked for is out of reach; ask for less, or widen what "
                             "[control] may turn."
                           : ""});
+}
+
+/// What is so as soon as it happens once: "7 particles were not emitted".
+Alarms::Finding Alarms::counted(std::uint64_t events, std::string_view what)
+{
+    return {events, events > 0 ? fmt::format("{} {}", events, what) : ""};
 }
 
 /// Raises the alarm, keeps it up to date, or takes it back.
@@ -146,7 +154,7 @@ std::vector<std::string_view> Alarms::unwatched(const AlarmSettings& limits) con
 double Alarms::energy_drift() const
 {
     const double before = start_.conserved.kinetic_energy + start_.potential_energy;
-    return ratio(energy_ - before, std::abs(before));
+    return before != 0 ? (energy_ - before) / std::abs(before) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// What starts at rest has its scale from what it comes to.
@@ -158,8 +166,7 @@ double Alarms::momentum_drift() const
 
 double Alarms::angular_momentum_drift() const
 {
-    return ratio((now_.angular_momentum - start_.conserved.angular_momentum).norm(),
-                 start_.conserved.angular_momentum.norm());
+    return drift(start_.conserved, now_).angular_momentum;
 }
 
 Alarms::Finding Alarms::weigh_dropped(double limit) const
@@ -215,24 +222,6 @@ Alarms::Finding Alarms::weigh_quarantine(double limit) const
                         "weaker forces or a larger softening. {} {}.",
                         quarantined_.particles,
                         some ? "The first ids:" : "Ids:", fmt::join(quarantined_.ids(), ", "))};
-}
-
-Alarms::Finding Alarms::weigh_births() const
-{
-    if (events_.births_refused == 0)
-        return {};
-    return {events_.births_refused, fmt::format("{} particles were not emitted, as there are "
-                                                "limits.max_particles; raise that, or emit less.",
-                                                events_.births_refused)};
-}
-
-Alarms::Finding Alarms::weigh_impacts() const
-{
-    if (events_.impacts_cut_off == 0)
-        return {};
-    return {events_.impacts_cut_off, fmt::format("{} flights had more impacts in a frame than are followed, "
-                                                 "and ended on a surface; use a smaller time.step.",
-                                                 events_.impacts_cut_off)};
 }
 
 } // namespace slod

@@ -47,6 +47,7 @@ private:
         std::uint64_t occurrences = 1;
         std::string text{};
     };
+    static Finding counted(std::uint64_t events, std::string_view what);
     void weigh(std::string_view name, AlarmSeverity severity, const Finding& finding);
     void weigh_all(const AlarmSettings& limits, const ControlReport& regulation);
     double energy_drift() const;
@@ -57,8 +58,6 @@ private:
     Finding weigh_maps(double limit) const;
     Finding weigh_quarantine(double limit) const;
     Finding weigh_dropped(double limit) const;
-    Finding weigh_births() const;
-    Finding weigh_impacts() const;
 
     Start start_;
     ConservedQuantities now_;     ///< when last measured

@@ -168,9 +168,6 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     summary.add(*snapshot, took.step_ms);
     alarms_->add(*snapshot, simulation_->settings().time.step);
     taken_out_ += snapshot->quarantined;
-    if (snapshot->quarantined.particles > 0 ||
-        std::exchange(effects_known_, steering_->effect_changes()) != steering_->effect_changes())
-        alarms_->begin_anew(measure_conserved());
     new_second_ = meter.add(end, took.step_ms, snapshot->profile);
     const ControlReport regulation = steering_->regulation();
     if (each_frame_)
@@ -178,6 +175,9 @@ void Server::run_frame(LoopMeter& meter, RunSummary& summary)
     if (new_second_) {
         report_errors(metering, regulation);
         report_effects(*snapshot);
+        const std::uint64_t effects = steering_->effect_changes();
+        if (taken_out_.particles > 0 || std::exchange(effects_known_, effects) != effects)
+            alarms_->begin_anew(measure_conserved());
         if (alarms_->look(limits, regulation))
             log_alarms();
         log_quarantined();

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <immintrin.h>
 
 #ifdef SLOD_PLAIN_THREADS
-#include <atomic>
 #include <thread>
 #include <vector>
 #else
@@ -131,6 +131,19 @@ void for_each_block(std::size_t count, std::size_t block, const Body& body)
 {
     for_each_task(block_count(count, block),
                   [&](std::size_t index) { body(index * block, std::min(count, (index + 1) * block)); });
+}
+
+/// Whether body(first, last) is true of all blocks, as for_each_block() cuts them; it is called for each of
+/// them, in parallel.
+template <class Body>
+bool holds_in_blocks(std::size_t count, std::size_t block, const Body& body)
+{
+    std::atomic<bool> holds{true};
+    for_each_block(count, block, [&](std::size_t first, std::size_t last) {
+        if (!body(first, last))
+            holds = false;
+    });
+    return holds;
 }
 
 } // namespace slod

@@ -11,16 +11,12 @@ namespace {
 
 constexpr std::size_t block = 1024;
 
-/// Whether body(first, last) is true of all blocks; it is called for each of them.
-template <class Body>
-bool holds_in_blocks(std::size_t count, const Body& body)
+/// da/dx as members feel it, their own attraction included. Needs columns.tide and columns.map.
+Matrix3d felt_gradient(const ClusterTable& clusters, std::size_t slot)
 {
-    std::atomic<bool> holds{true};
-    for_each_block(count, block, [&](std::size_t first, std::size_t last) {
-        if (!body(first, last))
-            holds = false;
-    });
-    return holds;
+    Matrix3d gradient = clusters.gradient(slot);
+    gradient.diagonal().array() -= clusters.closure[slot];
+    return gradient;
 }
 
 } // namespace
@@ -28,16 +24,13 @@ bool holds_in_blocks(std::size_t count, const Body& body)
 void kick_cluster(ClusterTable& clusters, std::size_t slot, double step)
 {
     clusters.velocity[slot] += step * clusters.acceleration[slot];
-    if (!clusters.columns.map)
-        return;
-    Matrix3d tide = clusters.gradient(slot);
-    tide.diagonal().array() -= clusters.closure[slot];
-    kick(clusters.map[slot], step, tide);
+    if (clusters.columns.map)
+        kick(clusters.map[slot], step, felt_gradient(clusters, slot));
 }
 
 bool kick_clusters(ClusterTable& clusters, double step)
 {
-    return holds_in_blocks(clusters.slot_count(), [&](std::size_t first, std::size_t last) {
+    return holds_in_blocks(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         bool sound = true;
         for (std::size_t slot = first; slot < last; ++slot) {
             if (!clusters.alive(slot))
@@ -54,7 +47,7 @@ bool propagate_clusters(ClusterTable& clusters, const Propagator& step, double r
 {
     const bool centres_only =
         clusters.free_slots.empty() && !clusters.columns.withheld && !clusters.columns.map;
-    return holds_in_blocks(clusters.slot_count(), [&](std::size_t first, std::size_t last) {
+    return holds_in_blocks(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         bool sound = true;
         if (centres_only) { // without a branch in the loop, as fast as a loop over particles
             for (std::size_t slot = first; slot < last; ++slot) {
@@ -83,12 +76,10 @@ double largest_rate_squared(const ClusterTable& clusters)
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         double most = 0;
         for (std::size_t slot = first; slot < last; ++slot) {
-            if (!clusters.alive(slot))
-                continue;
-            Matrix3d gradient = clusters.gradient(slot);
-            if (clusters.columns.map)
-                gradient.diagonal().array() -= clusters.closure[slot];
-            most = std::max(most, gradient.norm());
+            if (clusters.alive(slot))
+                most = std::max(
+                    most,
+                    (clusters.columns.map ? felt_gradient(clusters, slot) : clusters.gradient(slot)).norm());
         }
         for (double known = largest; known < most && !largest.compare_exchange_weak(known, most);)
             ;
@@ -98,7 +89,7 @@ double largest_rate_squared(const ClusterTable& clusters)
 
 bool all_sound(const ClusterTable& clusters, double range)
 {
-    return holds_in_blocks(clusters.slot_count(), [&](std::size_t first, std::size_t last) {
+    return holds_in_blocks(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
         bool sound = true;
         for (std::size_t slot = first; slot < last; ++slot)
             sound = sound && (!clusters.alive(slot) || is_sound(clusters, slot, range));

@@ -27,8 +27,8 @@ struct Quarantined {
     static constexpr std::size_t most_named = 8;
 
     std::uint64_t particles = 0;
-    double mass = 0; ///< scene mass
-    std::array<std::uint64_t, most_named> first_ids{};
+    double mass = 0;                                   ///< scene mass
+    std::array<std::uint64_t, most_named> first_ids{}; ///< those that there are: ids()
 
     std::span<const std::uint64_t> ids() const ///< of the first of them
     {

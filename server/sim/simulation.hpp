@@ -33,8 +33,8 @@ public:
     struct Request {
         bool clusters = false;
         bool conserved = false;
-        bool potential_energy =
-            false; ///< with the conserved quantities; over all pairs where there is gravity
+        /// With the conserved quantities; over all pairs where there is gravity.
+        bool potential_energy = false;
         /// Pairs of a particle and a member drawn that the error meter may sum up, and a block of some
         /// thousand particles more; 0: it rests. The outcome is the same.
         std::uint64_t error_pairs = 0;
@@ -67,8 +67,9 @@ public:
     Problems set_detail(const Detail& detail);
     const Detail& detail() const;
 
-    /// One frame: one fixed time step. The snapshot is valid until the next call. Throws std::overflow_error
-    /// with a remedy when something leaves the range of numbers; the simulation is of no use then.
+    /// One frame: one fixed time step. The snapshot is valid until the next call. Clusters that leave the
+    /// range of numbers are taken out (Snapshot::quarantined). Throws std::overflow_error with a remedy when
+    /// a member does within one frame's forming; the simulation is of no use then.
     const Snapshot& step(const Request& request);
 
     // What clusters and walks miss of the members' accelerations, measured as frames ask for it.

@@ -1,7 +1,6 @@
 #include "tree/reforming.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 
 #include "core/assert.hpp"
@@ -106,17 +105,19 @@ std::uint64_t Reforming::end_worn_lives(SlodTree& tree)
     const ClusterTable& clusters = context_.store.clusters;
     if (!clusters.columns.map)
         return 0;
-    std::atomic<bool> any{false};
     const auto is_worn_out = [&](std::size_t slot) {
         return clusters.alive(slot) && is_worn(clusters.map[slot]);
     };
-    for_each_block(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
+    const bool none = holds_in_blocks(clusters.slot_count(), 1024, [&](std::size_t first, std::size_t last) {
+        bool sound = true;
         for (std::size_t slot = first; slot < last; ++slot)
-            if (is_worn_out(slot))
-                any = true;
+            sound = sound && !is_worn_out(slot);
+        return sound;
     });
+    if (none)
+        return 0;
     std::uint64_t ended = 0;
-    for (std::size_t slot = 0; any && slot < clusters.slot_count(); ++slot) {
+    for (std::size_t slot = 0; slot < clusters.slot_count(); ++slot) {
         if (!is_worn_out(slot))
             continue;
         Pool& pool = tree.pool({clusters.region[slot], clusters.pool[slot]});
@@ -211,15 +212,14 @@ void Reforming::find_targets(SlodTree& tree)
     const auto midway = [&](const Particle& particle, std::uint64_t life) -> Vector3d {
         return particle.position + (0.5 * context_.step * (double(life) - early)) * particle.velocity;
     };
-    std::atomic<bool> bounded{true};
-    for_each_block(due_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    const bool bounded = holds_in_blocks(due_.size(), 4, [&](std::size_t begin, std::size_t end) {
+        bool all_finite = true;
         for (std::size_t d = begin; d < end; ++d) {
             const std::uint64_t life = tree.pool(due_[d].pool).life();
             for (std::uint32_t i = due_[d].first; i < due_[d].first + due_[d].count; ++i) {
                 const Particle& particle = grouping_.particles[i];
                 grouping_.place[i] = midway(particle, life);
-                if (!grouping_.place[i].allFinite())
-                    bounded = false;
+                all_finite = all_finite && grouping_.place[i].allFinite();
                 target_[i] = locate(tree, subject_of(grouping_, i));
                 if (!target_[i].valid())
                     continue;
@@ -228,6 +228,7 @@ void Reforming::find_targets(SlodTree& tree)
                     grouping_.place[i] = midway(particle, there);
             }
         }
+        return all_finite;
     });
     if (!bounded)
         refuse_unbounded(context_.frame);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,15 @@ Course run(const SimulationSettings& settings, const ParticleSet& initial, doubl
     return course;
 }
 
+void show(const std::string& bodies, const Course& course)
+{
+    report_picture({.title = bodies + ", frames of 1/60, steps after the tides",
+                    .x_axis = "time",
+                    .y_axis = "error of the energy",
+                    .curves = {{"cut into steps", course.time, course.error}},
+                    .log_y = true});
+}
+
 /// A light body about a heavy one, of semi-major axis 1, at its greatest distance: a turn takes 2 pi.
 ParticleSet eccentric(double e)
 {
@@ -78,11 +88,7 @@ TEST(EccentricOrbit, G03_KeepsItsEnergyWhereFramesAreCutIntoSteps)
     expect_at_most("error of the energy in 20 turns", course.largest_error, 1e-3);
     expect_at_most("evaluations a turn", double(course.substeps) / 20, 2e4);
     expect_at_most("frames flagged under-resolved", double(course.under_resolved), 0);
-    report_picture({.title = "Orbit of eccentricity 0.99, frames of 1/60, steps after the tides",
-                    .x_axis = "time (a turn is 2 pi)",
-                    .y_axis = "error of the energy",
-                    .curves = {{"cut into steps", course.time, course.error}},
-                    .log_y = true});
+    show("Orbit of eccentricity 0.99, whose turn takes 2 pi", course);
 }
 
 // A thousand steps a turn are far too few for the passage, which takes a thousandth of it.
@@ -135,11 +141,7 @@ TEST(PythagoreanBodies, G07_KeepTheirEnergyThroughEveryPassage)
     report_value("distance of 4 and 5 at the end", distance(course.end, 1, 2));
     report_value("distance of 3 and 5 at the end", distance(course.end, 0, 2));
     report_value("steps a frame", double(course.substeps) / double(course.time.size()));
-    report_picture({.title = "Pythagorean three bodies, frames of 1/60, steps after the tides",
-                    .x_axis = "time",
-                    .y_axis = "error of the energy",
-                    .curves = {{"cut into steps", course.time, course.error}},
-                    .log_y = true});
+    show("Pythagorean three bodies", course);
 }
 
 TEST(PythagoreanBodies, G07_AreNumbersAndFlaggedWhereStepsAreTooFew)

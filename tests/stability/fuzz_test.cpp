@@ -19,6 +19,7 @@
 #include "scene/scene.hpp"
 #include "support/case_rows.hpp"
 #include "support/drifting_cloud.hpp"
+#include "support/gadget_records.hpp"
 #include "support/scratch_folder.hpp"
 
 // Whatever is read is taken or refused with the name of its file: scenes, GADGET-2 files, input logs and
@@ -154,18 +155,6 @@ TEST(Fuzz, N22_AnyOverrideIsTakenOrRefusedByName)
         outcomes.add(std::get_if<Problems>(&loaded), "s.toml");
     }
     outcomes.report();
-}
-
-template <class T>
-std::string bytes_of(const std::vector<T>& items)
-{
-    return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
-}
-
-std::string record(const std::string& payload)
-{
-    const std::string mark = bytes_of<std::uint32_t>({std::uint32_t(payload.size())});
-    return mark + payload + mark;
 }
 
 /// A GADGET-2 file (SnapFormat 1, Springel 2005) of five halo particles with masses of their own.

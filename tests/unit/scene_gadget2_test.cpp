@@ -11,6 +11,7 @@
 
 #include "scene/gadget2.hpp"
 #include "support/case_rows.hpp"
+#include "support/gadget_records.hpp"
 
 namespace slod::test {
 
@@ -18,18 +19,6 @@ namespace {
 
 const std::vector<ParticleKind> all_kinds = {{"halo", 1},  {"disc", 1},  {"gas", 1},
                                              {"bulge", 1}, {"stars", 1}, {"bndry", 1}};
-
-template <class T>
-std::string bytes_of(const std::vector<T>& items)
-{
-    return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
-}
-
-std::string record(const std::string& payload)
-{
-    const std::string marker = bytes_of<std::uint32_t>({std::uint32_t(payload.size())});
-    return marker + payload + marker;
-}
 
 /// What a test writes into a file. Particle n has position n + {0, 0.25, 0.5}, velocity -position and id 10 +
 /// n.

@@ -11,6 +11,7 @@
 
 #include "scene/galaxy_pair.hpp"
 #include "support/case_rows.hpp"
+#include "support/gadget_records.hpp"
 
 namespace slod::test {
 
@@ -44,11 +45,6 @@ std::string one_particle(float x = 0)
 {
     std::string header(256, '\0');
     header[8] = 1; // count of type 2
-    const auto record = [](const std::string& payload) {
-        const auto size = std::uint32_t(payload.size());
-        const std::string marker(reinterpret_cast<const char*>(&size), sizeof size);
-        return marker + payload + marker;
-    };
     const std::string vector(12, '\0');
     std::string place = vector;
     std::memcpy(place.data(), &x, sizeof x);
