@@ -17,7 +17,7 @@ namespace slod {
 enum class ColliderShape : std::uint8_t {
     Plane,       ///< all that is below a plane
     Sphere,      ///< a ball
-    Box,         ///< sides along the axes
+    Box,         ///< sides along the axes, before it is turned
     Cone,        ///< upright on a base that closes it
     Capsule,     ///< all within a radius of a line
     Mesh,        ///< a sheet of a file's triangles
@@ -53,6 +53,7 @@ struct ColliderSettings {
     double radius = 1;             ///< of a sphere, a capsule, the base of a cone, scene length
     Vector3d half_extent{1, 1, 1}; ///< of a box, scene length
     Vector3d axis{0, 0, -1};       ///< of a cone or a capsule, with its length, scene length
+    Vector3d rotation{0, 0, 0};    ///< of a box, a mesh or a heightfield: deg about x, then y, then z
     std::string file{};            ///< of a mesh or a heightfield, in the scene's folder
     double scale = 1;              ///< of a mesh, or a heightfield's heights, scene length
     double spacing = 1;            ///< of a heightfield's grid, scene length
@@ -87,6 +88,10 @@ void for_each_field(ColliderSettings& collider, Visitor&& visit)
               "From a cone's apex to the centre of its base, from one end of a capsule's axis to the other.",
               -1e30, 1e30},
         collider.axis);
+    visit(Field{"rotation", "deg",
+                "Of a box, a mesh or a heightfield, about its position: first about x, then y, then z.", -360,
+                360},
+          collider.rotation);
     visit(
         Field{
             "file", "",
@@ -99,7 +104,9 @@ void for_each_field(ColliderSettings& collider, Visitor&& visit)
           collider.spacing);
     visit(Field{"thickness", "length", "Of a mesh or a heightfield, half of it on each side.", 0, 1e30},
           collider.thickness);
-    visit(Field{"velocity", "length/time", "Of uniform motion.", -1e30, 1e30}, collider.velocity);
+    visit(Field{"velocity", "length/time",
+                "Of uniform motion from its position at time 0, whenever it is set.", -1e30, 1e30},
+          collider.velocity);
     visit(Field{"on_hit", "", "What becomes of a particle: it bounces, stays there for good, or dies."},
           collider.on_hit);
     visit(Field{"restitution", "", "Speed away from the surface by speed towards it: 0 stays, 1 is elastic.",

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "core/assert.hpp"
 #include "core/number_text.hpp"
@@ -12,29 +13,35 @@ namespace {
 /// about their cluster.
 constexpr double thinnest = 1e-6;
 
-/// From the file's coordinates to the scene's.
-Vector3d placed(const ColliderSettings& settings, const Vector3d& vertex)
+/// The file's surface where the scene has it.
+std::vector<Vector3d> placed_vertices(const ColliderSettings& settings)
 {
-    if (settings.shape == ColliderShape::Mesh)
-        return settings.position + settings.scale * vertex;
-    return settings.position + Vector3d(settings.spacing * vertex.x(), settings.spacing * vertex.y(),
-                                        settings.scale * vertex.z());
+    const bool heights = settings.shape == ColliderShape::Heightfield;
+    const double across = heights ? settings.spacing : settings.scale;
+    const Vector3d scale(across, across, settings.scale);
+    const Matrix3d rotation = rotation_of(settings);
+    std::vector<Vector3d> placed;
+    placed.reserve(settings.mesh->vertices.size());
+    for (const Vector3d& vertex : settings.mesh->vertices)
+        placed.emplace_back(settings.position + rotation * scale.cwiseProduct(vertex));
+    return placed;
 }
 
 /// The largest coordinate of any vertex.
 double reach(const ColliderSettings& settings)
 {
     double reach = 0;
-    for (const Vector3d& vertex : settings.mesh->vertices)
-        reach = std::max(reach, placed(settings, vertex).cwiseAbs().maxCoeff());
+    for (const Vector3d& vertex : placed_vertices(settings))
+        reach = std::max(reach, vertex.cwiseAbs().maxCoeff());
     return reach;
 }
 
 bool has_area(const ColliderSettings& settings)
 {
-    const auto& [vertices, triangles] = *settings.mesh;
+    const std::vector<Vector3d> vertices = placed_vertices(settings);
+    const std::vector<Mesh::Triangle>& triangles = settings.mesh->triangles;
     return std::any_of(triangles.begin(), triangles.end(), [&](const Mesh::Triangle& triangle) {
-        const auto corner = [&](std::size_t i) { return placed(settings, vertices[triangle[i]]); };
+        const auto corner = [&](std::size_t i) { return vertices[triangle[i]]; };
         return !triangle_normal(corner(0), corner(1), corner(2)).isZero(0);
     });
 }
@@ -65,15 +72,19 @@ std::unique_ptr<Sheet> make_sheet(const ColliderSettings& settings)
 {
     SLOD_ASSERT(settings.mesh != nullptr);
     Mesh mesh = *settings.mesh;
-    for (Vector3d& vertex : mesh.vertices)
-        vertex = placed(settings, vertex);
+    mesh.vertices = placed_vertices(settings);
     return std::make_unique<Sheet>(mesh, settings.thickness);
 }
 
-const SolidKind mesh_kind{
-    .problems = sheet_problems, .make = nullptr, .file = true, .scale = true, .thickness = true};
+const SolidKind mesh_kind{.problems = sheet_problems,
+                          .make = nullptr,
+                          .rotation = true,
+                          .file = true,
+                          .scale = true,
+                          .thickness = true};
 const SolidKind heightfield_kind{.problems = sheet_problems,
                                  .make = nullptr,
+                                 .rotation = true,
                                  .file = true,
                                  .scale = true,
                                  .spacing = true,

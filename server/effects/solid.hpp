@@ -50,7 +50,7 @@ struct SolidKind {
     Problems (*problems)(const ColliderSettings& settings);
     std::unique_ptr<Solid> (*make)(const ColliderSettings& settings); ///< null where it is a sheet
     // Which keys besides the position say where it is and how large.
-    bool normal = false, radius = false, half_extent = false, axis = false;
+    bool normal = false, radius = false, half_extent = false, axis = false, rotation = false;
     bool file = false, scale = false, spacing = false, thickness = false;
 };
 
@@ -63,6 +63,9 @@ Problems problems(const ColliderSettings& settings);
 
 /// The solid of settings without problems; null where they describe a sheet, which is none but many.
 std::unique_ptr<Solid> make_solid(const ColliderSettings& settings);
+
+/// From the solid's own axes, or its file's, to the scene's.
+Matrix3d rotation_of(const ColliderSettings& settings);
 
 /// A box around both points and all within `reach` of them.
 Box box_around(const Vector3d& a, const Vector3d& b, double reach);

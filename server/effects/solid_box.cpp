@@ -9,23 +9,27 @@ namespace {
 class Block final : public Solid {
 public:
     explicit Block(const ColliderSettings& settings)
-        : centre_(settings.position), half_extent_(settings.half_extent)
+        : centre_(settings.position), half_extent_(settings.half_extent), axes_(rotation_of(settings))
     {}
 
     Surface surface(const Vector3d& x) const override
     {
-        const Vector3d away = x - centre_;
+        const Vector3d away = axes_.transpose() * (x - centre_);
         const Vector3d beyond = away.cwiseAbs() - half_extent_; // of each pair of faces
         const Vector3d outside = beyond.cwiseMax(0.0);
         const double distance = outside.norm();
         if (distance > 0)
-            return {distance, signed_as(away, outside / distance)};
+            return {distance, axes_ * signed_as(away, outside / distance)};
         int face = 0;
         const double depth = beyond.maxCoeff(&face);
-        return {depth, signed_as(away, Vector3d::Unit(face))};
+        return {depth, axes_ * signed_as(away, Vector3d::Unit(face))};
     }
 
-    Box bounds() const override { return {centre_ - half_extent_, centre_ + half_extent_}; }
+    Box bounds() const override
+    {
+        const Vector3d reach = axes_.cwiseAbs() * half_extent_;
+        return {centre_ - reach, centre_ + reach};
+    }
 
 private:
     static Vector3d signed_as(const Vector3d& signs, const Vector3d& sizes)
@@ -35,6 +39,7 @@ private:
     }
 
     Vector3d centre_, half_extent_;
+    Matrix3d axes_; ///< its own, as columns
 };
 
 Problems box_problems(const ColliderSettings& settings)
@@ -53,6 +58,6 @@ std::unique_ptr<Solid> make_box(const ColliderSettings& settings)
 
 } // namespace
 
-const SolidKind box_kind{.problems = box_problems, .make = make_box, .half_extent = true};
+const SolidKind box_kind{.problems = box_problems, .make = make_box, .half_extent = true, .rotation = true};
 
 } // namespace slod

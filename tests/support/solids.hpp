@@ -32,6 +32,14 @@ inline ColliderSettings box(const Vector3d& centre, const Vector3d& half_extent)
     return {.name = "box", .shape = ColliderShape::Box, .position = centre, .half_extent = half_extent};
 }
 
+/// The same solid, turned about its position [deg].
+inline ColliderSettings turned(ColliderSettings collider, const Vector3d& rotation)
+{
+    collider.name = "turned_" + collider.name;
+    collider.rotation = rotation;
+    return collider;
+}
+
 inline ColliderSettings cone(const Vector3d& apex, const Vector3d& axis, double radius)
 {
     return {.name = "cone", .shape = ColliderShape::Cone, .position = apex, .radius = radius, .axis = axis};
@@ -51,12 +59,16 @@ inline ColliderSettings with(ColliderSettings collider, double restitution, doub
     return collider;
 }
 
-/// One of each shape, of about the size 1 and away from the origin, in no symmetric position.
+/// One of each shape and a box that is turned, of about the size 1 and away from the origin, in no symmetric
+/// position.
 inline std::vector<ColliderSettings> one_of_each()
 {
-    return {plane({0.3, -0.2, 0.1}, {0.2, -0.4, 1}), sphere({0.4, 0.1, -0.3}, 0.8),
-            box({-0.2, 0.3, 0.5}, {0.7, 0.2, 0.4}), cone({0.1, 0.2, 0.9}, {0.3, 0.4, -1.2}, 0.6),
-            capsule({0.5, -0.4, 0.2}, {-0.6, 0.3, 0.7}, 0.35)};
+    return {plane({0.3, -0.2, 0.1}, {0.2, -0.4, 1}),
+            sphere({0.4, 0.1, -0.3}, 0.8),
+            box({-0.2, 0.3, 0.5}, {0.7, 0.2, 0.4}),
+            cone({0.1, 0.2, 0.9}, {0.3, 0.4, -1.2}, 0.6),
+            capsule({0.5, -0.4, 0.2}, {-0.6, 0.3, 0.7}, 0.35),
+            turned(box({0.1, 0.4, -0.2}, {0.5, 0.3, 0.8}), {30, -50, 110})};
 }
 
 } // namespace slod::test

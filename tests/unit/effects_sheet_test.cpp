@@ -202,9 +202,16 @@ TEST(Sheet, IsWhereItsSettingsSay)
     };
     const Vector3d half = Vector3d::Constant(0.5e-3);
     box_is(Vector3d(10, 20, 30) - half, Vector3d(14, 22, 36) + half);
+    settings.rotation = {0, 0, 90};
+    box_is(Vector3d(8, 20, 30) - half, Vector3d(10, 24, 36) + half);
     settings.shape = ColliderShape::Heightfield;
     settings.spacing = 0.5;
+    settings.rotation = {0, 0, 0};
     box_is(Vector3d(10, 20, 30) - half, Vector3d(11, 20.5, 36) + half);
+    settings.rotation = {0, 90, 0};
+    box_is(Vector3d(10, 20, 29) - half, Vector3d(16, 20.5, 30) + half);
+    settings.rotation = {90, 90, 0};
+    box_is(Vector3d(10, 14, 29) - half, Vector3d(10.5, 20, 30) + half);
 }
 
 } // namespace

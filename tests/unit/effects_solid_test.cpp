@@ -101,6 +101,14 @@ TEST(Solid, IsWhereItsSettingsSay)
     expect_surface(box({0, 0, 0}, {1, 2, 3}), {0.5, 0, 4}, 1, {0, 0, 1});
     expect_surface(box({0, 0, 0}, {1, 2, 3}), {4, 6, 0}, 5, {0.6, 0.8, 0});
     expect_surface(box({0, 0, 0}, {1, 2, 3}), {-0.75, 0, 0}, -0.25, {-1, 0, 0});
+    // By the right hand; about x first, then z.
+    const double root = std::sqrt(0.75);
+    expect_surface(turned(box({0, 0, 0}, {2, 1, 1}), {0, 0, 30}), {4 * root, 2, 0}, 2, {root, 0.5, 0});
+    expect_surface(turned(box({0, 0, 0}, {1, 2, 1}), {30, 0, 0}), {0, 4 * root, 2}, 2, {0, root, 0.5});
+    expect_surface(turned(box({1, 0, 0}, {1, 2, 3}), {0, 0, 90}), {1, 5, 0}, 4, {0, 1, 0});
+    expect_surface(turned(box({0, 0, 0}, {1, 2, 3}), {0, 90, 0}), {0, 0, -4}, 3, {0, 0, -1});
+    expect_surface(turned(box({0, 0, 0}, {1, 2, 3}), {90, 0, 90}), {5, 0, 0}, 2, {1, 0, 0});
+    expect_surface(turned(box({0, 0, 0}, {1, 1, 1}), {0, 0, 45}), {3, 0, 0}, 3 - std::sqrt(2.0), {1, 0, 0});
     expect_surface(capsule({0, 0, 0}, {0, 0, 2}, 0.5), {2, 0, 1}, 1.5, {1, 0, 0});
     expect_surface(capsule({0, 0, 0}, {0, 0, 2}, 0.5), {0, 0, 3}, 0.5, {0, 0, 1});
     // Upright, three wide at its base and four high: the mantle's normal is (4, 3) / 5.
@@ -148,6 +156,7 @@ TEST(ColliderSettings, F25_AreRefusedWhereTheyLeaveNothingSolid)
     EXPECT_TRUE(says(capsule({0, 0, 0}, {0, 0, 0}, 1), "axis = [0, 0, 0] has no direction; give"));
     EXPECT_TRUE(says(capsule({0, 0, 0}, {1, 0, 0}, 0), "radius = 0"));
     EXPECT_EQ(problems(cone({0, 0, 0}, {0, 0, 0}, 0)).size(), 2U);
+    EXPECT_EQ(problems(turned(sphere({0, 0, 0}, 1), {0, 0, 1})).size(), 1U) << "which looks the same";
     expect_at_least("degenerate solids refused, of 7", refused, 7);
 }
 

@@ -131,6 +131,8 @@ void mend(ColliderSettings& collider)
     collider.half_extent =
         collider.shape == Box ? Vector3d(collider.half_extent.array() + 1) : defaults.half_extent;
     collider.axis = has_axis ? Vector3d(0, 1e-30, -2) : defaults.axis;
+    if (collider.shape != Box)
+        collider.rotation = defaults.rotation;
     collider.file.clear();
     collider.scale = defaults.scale;
     collider.spacing = defaults.spacing;
