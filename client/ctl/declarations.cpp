@@ -208,7 +208,11 @@ void declare_effect(CLI::App& app, CommandLine& line)
     action(app, line, "list", "Print all effects, one line each: their state and their work in a frame.", "");
     CLI::App* const set =
         action(app, line, "set", "Change settings of effects; one that the scene has not comes.", "set");
-    add_settings(*set, "SETTING", line.request, "effect.key=value as in a scene file")->required();
+    add_settings(
+        *set, "SETTING", line.request,
+        "effect.key=value as in a scene file; of several, effect.0.key=value for the first, and the number "
+        "after the last adds one")
+        ->required();
     const auto switching = [&](const std::string& name, const std::string& help, const std::string& value) {
         CLI::App* const sub = action(app, line, name, help, "set");
         const auto take = [&line, value](const std::string& effect) {

@@ -29,14 +29,14 @@ void Regulator::set(const LoopSettings& settings, const SceneEditor& editor, con
 {
     frame_rate_hz_ = settings.server.frame_rate;
     const bool other_settings = settings.control != settings_;
-    const bool other_effects = editor.effect_changes() != effect_changes_;
-    if (!other_settings && !other_effects && editor.revision() == revision_)
+    const bool other_plan = editor.plan_changes() != plan_changes_;
+    if (!other_settings && !other_plan && editor.revision() == revision_)
         return;
     if (settings_.mode != ControlMode::Off && settings.control.mode == ControlMode::Off)
         decided_ = Detail{};
     settings_ = settings.control;
     revision_ = editor.revision();
-    effect_changes_ = editor.effect_changes();
+    plan_changes_ = editor.plan_changes();
     const ControlScope scope = scope_of(editor, simulation);
     ControlSettings asked = settings_;
     if (asked.mode == ControlMode::Error && !simulation.plan().has(Phase::Meter))
@@ -45,7 +45,7 @@ void Regulator::set(const LoopSettings& settings, const SceneEditor& editor, con
     const bool turnable = has_target && !simulation.plan().unclustered && scope.most_size > 0;
     if (!turnable)
         controller_.reset();
-    else if (other_settings || other_effects || !controller_)
+    else if (other_settings || other_plan || !controller_)
         controller_ = make_controller(asked, scope, simulation.detail());
     else if (scope != scope_) // not whenever a region moves
         controller_->set_scope(scope);

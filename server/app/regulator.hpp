@@ -20,9 +20,10 @@ public:
     /// `paced`: there is a frame rate to hold.
     explicit Regulator(bool paced) : paced_(paced) {}
 
-    /// Takes up other settings, other effects and other regions, where they are. Another controller goes on
-    /// from the detail that the last one left, and so does one under other effects, which make other work and
-    /// other errors; without one the scene has its own again. Where nothing can be turned, as in a
+    /// Takes up other settings, another plan and other regions, where they are. Another controller goes on
+    /// from the detail that the last one left, and so does one under another plan, which makes other work and
+    /// other errors; values that change under the same plan, such as an attractor's place, leave it as it is.
+    /// Without one the scene has its own again. Where nothing can be turned, as in a
     /// scene planned without clusters, there is none.
     void set(const LoopSettings& settings, const SceneEditor& editor, const Simulation& simulation);
 
@@ -38,8 +39,8 @@ private:
     bool paced_;
     ControlSettings settings_{.mode = ControlMode::Off};
     double frame_rate_hz_ = 0;
-    std::uint64_t revision_ = 0;       ///< of the regions that the scope is of
-    std::uint64_t effect_changes_ = 0; ///< that the controller knows of
+    std::uint64_t revision_ = 0;     ///< of the regions that the scope is of
+    std::uint64_t plan_changes_ = 0; ///< that the controller knows of
     ControlScope scope_;
     std::unique_ptr<Controller> controller_;
     std::optional<Detail> decided_;

@@ -43,9 +43,10 @@ Problems unchangeable(const std::vector<Assignment>& settings)
 {
     // Of [server] its frame_rate alone, which its own reader says.
     std::vector<std::string> tables{"alarms", "background", "control", "effects", "meter", "server"};
+    const std::string changeable = joined(tables) + ", or the table of an effect other than emitter.";
     SimulationSettings none;
-    for_each_effect(none, [&]<class Table>(std::string_view name, const Table&) {
-        if constexpr (requires(Table table) { table.has_value(); }) // of [[tables]] each would need a name
+    for_each_effect(none, [&](std::string_view name, const auto&) {
+        if (name != "emitter")
             tables.emplace_back(name);
     });
     Problems found;
@@ -56,13 +57,12 @@ Problems unchangeable(const std::vector<Assignment>& settings)
         const std::string* const meant = nearest(table, tables);
         if (assignment.key.find('.') == std::string::npos) {
             found.push_back(assignment.key + " is of no table; write table.key, such as background." +
-                            assignment.key + ". What can change is in " + joined(tables) + ".");
+                            assignment.key + ". What can change is in " + changeable);
             continue;
         }
         found.push_back(assignment.key + " cannot change while the scene runs; " +
-                        (meant != nullptr
-                             ? "did you mean " + *meant + "?"
-                             : "start the server with it. What can is in " + joined(tables) + "."));
+                        (meant != nullptr ? "did you mean " + *meant + "?"
+                                          : "start the server with it. What can is in " + changeable));
     }
     return found;
 }
@@ -152,9 +152,11 @@ Problems SceneEditor::set(const std::vector<Assignment>& settings, std::uint64_t
         found = problems(limits, called_for(wanted));
     if (!found.empty())
         return found;
+    const Plan before = simulation_.plan();
     if (found = simulation_.change_settings(wanted); !found.empty())
         return found;
     ++effect_changes_;
+    plan_changes_ += simulation_.plan() == before ? 0 : 1;
     log_.push_back({.frame = frame, .kind = InputKind::ChangeSettings, .region = {}, .settings = settings});
     return {};
 }

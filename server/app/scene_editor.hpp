@@ -32,10 +32,11 @@ public:
 
     /// Null when there is no region of this name.
     const RegionRecord* find(std::string_view name) const;
-    std::size_t region_count() const { return records_.size(); } ///< the background included
-    const auto& records() const { return records_; }             ///< by name
-    std::uint64_t revision() const { return revisions_; }        ///< grows with every change of a region
-    std::uint64_t effect_changes() const { return effect_changes_; }
+    std::size_t region_count() const { return records_.size(); }     ///< the background included
+    const auto& records() const { return records_; }                 ///< by name
+    std::uint64_t revision() const { return revisions_; }            ///< grows with every change of a region
+    std::uint64_t effect_changes() const { return effect_changes_; } ///< of any setting
+    std::uint64_t plan_changes() const { return plan_changes_; }     ///< of those: other work than before
 
     // What is asked for wrongly is refused with a sentence per problem, the key first, and changes nothing.
     Problems add(const RegionOfInterest& region, const wire::Uuid& owner, double lease_s,
@@ -69,7 +70,7 @@ private:
     std::map<std::string, RegionRecord> news_;
     std::vector<LoggedCommand> log_;
     std::uint64_t revisions_ = 0; ///< given out so far
-    std::uint64_t effect_changes_ = 0;
+    std::uint64_t effect_changes_ = 0, plan_changes_ = 0;
 };
 
 } // namespace slod

@@ -1,5 +1,6 @@
 #include "scene/assignments.hpp"
 
+#include <charconv>
 #include <optional>
 #include <string_view>
 
@@ -81,11 +82,28 @@ struct AssignInTable {
         assign_field(*table, key, assignment, found);
     }
 
+    /// The key begins with the table's number, from 0; one behind the last is a new one.
     template <class Settings>
-    void operator()(std::vector<Settings>&) const
+    void operator()(std::vector<Settings>& tables) const
     {
-        found.push_back(assignment.key +
-                        " cannot be set: kinds and emitters stay, and regions have commands of their own.");
+        std::size_t number = 0;
+        const char* const end = key.data() + key.size();
+        const auto [rest, error] = std::from_chars(key.data(), end, number);
+        const std::string table(assignment.key, 0, assignment.key.size() - key.size() - 1);
+        if (error != std::errc{} || rest == end || *rest != '.') {
+            const std::string last =
+                error == std::errc{} ? "KEY" : std::string(key.substr(key.rfind('.') + 1));
+            found.push_back(assignment.key + ": [[" + table + "]] is an array of tables; write " + table +
+                            ".0." + last + " for the first.");
+        } else if (number > tables.size()) {
+            found.push_back(assignment.key + ": the scene has " + std::to_string(tables.size()) + " of [[" +
+                            table + "]], counted from 0; number " + std::to_string(tables.size()) +
+                            " adds one.");
+        } else {
+            if (number == tables.size())
+                tables.emplace_back();
+            assign_field(tables[number], std::string_view(rest + 1, end), assignment, found);
+        }
     }
 };
 

@@ -24,7 +24,8 @@ struct Assignment {
 /// is problems(RegionOfInterest)'s to say.
 Problems assign_fields(RegionOfInterest& region, std::span<const Assignment> assignments);
 
-/// Likewise settings of the simulation by "table.key"; [[tables]] cannot be reached.
+/// Likewise settings of the simulation by "table.key", or "table.0.key" of [[tables]], of which the number of
+/// those that are there adds one.
 Problems assign_fields(SimulationSettings& settings, std::span<const Assignment> assignments);
 
 /// Likewise settings of the loop.

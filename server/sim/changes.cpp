@@ -30,9 +30,18 @@ bool same_plan(const SimulationSettings& a, const SimulationSettings& b)
     return a.gravity.has_value() == b.gravity.has_value() &&
            a.uniform_gravity.has_value() == b.uniform_gravity.has_value() &&
            a.uniform_wind.has_value() == b.uniform_wind.has_value() && a.linear_drag == b.linear_drag &&
-           a.quadratic_drag == b.quadratic_drag && a.fields == b.fields && a.speed_limit == b.speed_limit &&
+           a.quadratic_drag == b.quadratic_drag && a.speed_limit == b.speed_limit &&
            a.brownian == b.brownian && a.colliders == b.colliders && a.sinks == b.sinks &&
-           a.emitters.size() == b.emitters.size();
+           a.emitters.size() == b.emitters.size() &&
+           (a.fields == b.fields || compile_plan(a, {}) == compile_plan(b, {}));
+}
+
+/// Whether one of the colliders has this one's surface, which has been read from its file.
+bool has_surface_of(const std::vector<ColliderSettings>& colliders, const ColliderSettings& other)
+{
+    return std::any_of(colliders.begin(), colliders.end(), [&](const ColliderSettings& each) {
+        return each.file == other.file && each.mesh == other.mesh && each.shape == other.shape;
+    });
 }
 
 } // namespace
@@ -150,6 +159,12 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
     fixed("background", wanted.background == present.background);
     fixed("sharing", wanted.sharing == present.sharing);
     fixed("region", wanted.regions == present.regions);
+    for (std::size_t i = 0; i < wanted.colliders.size(); ++i) {
+        const ColliderSettings& one = wanted.colliders[i];
+        const bool of_file = !one.file.empty() || one.mesh;
+        fixed("collider." + std::to_string(i) + (one.file.empty() ? ".shape" : ".file"),
+              !of_file || has_surface_of(present.colliders, one));
+    }
     if (!found.empty())
         return found;
     if (same_plan(called_for(wanted), state_->settings))
@@ -163,15 +178,29 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
 void Simulation::State::take(const SimulationSettings& wanted)
 {
     const auto before = settings.gravity;
+    const FieldSettings fields_before = settings.fields;
     asked = wanted;
     settings = called_for(wanted);
-    note_switches(plan, wanted);
+    describe_effects(plan, wanted);
     forces_stale = forces_stale || settings.gravity != before;
     if (before)
         scale_pulls(before->strength > 0 ? settings.gravity->strength / before->strength : 0);
     set_fields();
+    if (settings.fields != fields_before) {
+        place_fields();
+        forces_stale = true;
+    }
     set_detail();
     meter.forget();
+}
+
+void Simulation::State::place_fields()
+{
+    const FieldSource source{settings.seed};
+    if (field_forces)
+        field_forces.emplace(settings.fields, source, settings.gravity.has_value(), tick);
+    if (air)
+        air.emplace(fields, settings.quadratic_drag, settings.fields, source, settings.time.step, tick);
 }
 
 Problems Simulation::set_detail(const Detail& detail)

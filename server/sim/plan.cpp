@@ -155,8 +155,9 @@ std::string_view PlannedEffect::state() const
     return powerless > 0 ? "powerless" : "absent";
 }
 
-void note_switches(Plan& plan, const SimulationSettings& asked)
+void describe_effects(Plan& plan, const SimulationSettings& asked)
 {
+    list_effects(plan, called_for(asked));
     for_each_effect(asked, [&](std::string_view name, const auto& table) {
         plan.effects[effect_row(name)].switched_off = named(table) && !asked.effects.runs(name);
     });
@@ -176,8 +177,7 @@ Plan compile_plan(const SimulationSettings& asked, const ParticleSet& initial)
     decide_map(plan, settings);
     decide_phases(plan, settings);
     list_columns(plan);
-    list_effects(plan, settings);
-    note_switches(plan, asked);
+    describe_effects(plan, asked);
     return plan;
 }
 

@@ -16,6 +16,8 @@ namespace slod {
 struct PlannedColumn {
     std::string_view name;
     std::size_t bytes; ///< per particle or per cluster
+
+    friend bool operator==(const PlannedColumn&, const PlannedColumn&) = default;
 };
 
 /// An effect the program knows, and whether this scene calls for it.
@@ -28,6 +30,12 @@ struct PlannedEffect {
 
     /// "active", "off", "powerless" or "absent".
     std::string_view state() const;
+
+    /// Whether what runs is the same: what is powerless does not.
+    friend bool operator==(const PlannedEffect& a, const PlannedEffect& b)
+    {
+        return a.name == b.name && a.active == b.active;
+    }
 };
 
 /// What a scene comes down to: the phases that run, and the columns that exist. Compiled once from the
@@ -57,13 +65,15 @@ struct Plan {
     std::vector<PlannedColumn> cluster_columns;
 
     bool has(Phase phase) const { return runs[std::size_t(phase)]; }
+
+    friend bool operator==(const Plan&, const Plan&) = default;
 };
 
 /// Compiles the plan of a scene that starts with `initial`: of what of its effects is switched on.
 Plan compile_plan(const SimulationSettings& settings, const ParticleSet& initial);
 
-/// Takes down which of the effects that the scene has are switched off.
-void note_switches(Plan& plan, const SimulationSettings& asked);
+/// Takes down of the effects that the scene has which are switched off, and how many are powerless.
+void describe_effects(Plan& plan, const SimulationSettings& asked);
 
 /// The plan in words, for --explain: phases, effects active and absent, map kind, columns and bytes.
 std::string explain(const Plan& plan, const SimulationSettings& settings);

@@ -110,6 +110,9 @@ void check_fields(const FieldSettings& fields, double step, Problems& found)
 {
     for_each_field_table(fields, [&]<class F>(const typename F::Table& table) {
         const auto all = elements(table);
+        if (all.size() > max_fields)
+            found.push_back(std::string(F::name) + " appears " + std::to_string(all.size()) +
+                            " times; use at most " + std::to_string(max_fields) + ".");
         for (std::size_t i = 0; i < all.size(); ++i)
             for (const std::string& problem : F::problems(all[i], step))
                 found.push_back(key_of<F>(i) + "." + problem);

@@ -54,12 +54,12 @@ public:
     Problems change_region(const RegionOfInterest& region); ///< the one of its name, or the background
     Problems remove_region(std::string_view name);          ///< its clusters go to the others
 
-    /// Takes new settings of effects, and which of them run. Values of gravity, uniform gravity and uniform
-    /// wind are taken as they are; for anything else a new plan is compiled, and all clusters are formed anew
-    /// from their members: that takes as long as to start the scene with so many particles, and as much
-    /// memory besides what is there. Emitters stay, though they can be switched off and on. What was
-    /// handed out by reference before is not valid after it. Regions have
-    /// functions of their own.
+    /// Takes new settings of effects, and which of them run. Values of gravity, uniform gravity, uniform
+    /// wind and effects of place are taken as they are; for anything else a new plan is compiled, and all
+    /// clusters are formed anew from their members: that takes as long as to start the scene with so many
+    /// particles, and as much memory besides what is there. Emitters stay, though they can be switched off
+    /// and on. What was handed out by reference before is not valid after it. Regions have functions of their
+    /// own.
     Problems change_settings(const SimulationSettings& wanted);
 
     /// Makes all of the scene coarser or finer than it asks for, gradually, from the next step on. Refused

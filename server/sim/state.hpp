@@ -40,7 +40,7 @@ struct Simulation::State {
     /// The same particles, regions and time under a plan for other effects.
     std::unique_ptr<State> with(const SimulationSettings& wanted, const ParticleSet& particles) const;
 
-    /// Commands: recycles member slabs, lets changes of regions and of gravity count, makes room, and counts
+    /// Commands: recycles member slabs, lets changes of regions and of forces count, makes room, and counts
     /// the frame that begins.
     void open(const Request& request);
     void form_clusters(const ParticleSet& particles);
@@ -74,8 +74,9 @@ struct Simulation::State {
     void check_sharing(const RegionOfInterest& region, Problems& found) const;
     void take(const SimulationSettings& wanted);
     void scale_pulls(double factor);
-    void set_fields(); ///< from the settings
-    void set_detail(); ///< from the settings and the tree's detail
+    void set_fields();   ///< Those that are the same everywhere, from the settings
+    void place_fields(); ///< Then those of places
+    void set_detail();   ///< from the settings and the tree's detail
 
     /// Adds the milliseconds that work takes to a sum.
     template <class Work>
@@ -147,7 +148,7 @@ struct Simulation::State {
 
     std::vector<ClusterSlot> unsound; ///< memory of quarantine()
     bool metering = false;            ///< errors are asked for in this frame
-    bool forces_stale = false;        ///< a setting of gravity changed since they were evaluated
+    bool forces_stale = false;        ///< a setting of them changed since they were evaluated
     std::uint64_t particle_count = 0;
     Snapshot snapshot;
 };

@@ -38,6 +38,11 @@ void change(SceneEditor& editor, std::uint64_t frame)
         expect_done(editor.set({{"background.max_cluster_size", "12"}}, frame));
     if (frame == 60) // a new plan: all clusters are formed anew
         expect_done(editor.set({{"quadratic_drag.coefficient", "0.1"}}, frame));
+    if (frame == 66)
+        expect_done(editor.set({{"attractor.0.strength", "0.01"}}, frame));
+    if (frame > 66 && frame % 4 == 0) // under the same plan
+        expect_done(
+            editor.set({{"attractor.0.position", "[0, 0, " + std::to_string(frame % 5) + "]"}}, frame));
 }
 
 /// Steps to frame `last`, doing before each what the log says; the hashes of the frames.

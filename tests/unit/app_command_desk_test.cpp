@@ -146,8 +146,9 @@ TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
     };
     expect("gravty.strength", "gravty.strength cannot change while the scene runs; did you mean gravity?");
     for (const std::string table : {"galaxy.particles", "wire.commands", "motion.clock", "emitter.0.rate"})
-        expect(table, table + " cannot change while the scene runs; start the server with it. What can is in "
-                              "alarms, background, control, effects, meter, server, gravity");
+        expect(table, table +
+                          " cannot change while the scene runs; start the server with it. What can is in "
+                          "alarms, background, control, effects, meter, server, or the table of an effect");
     expect("gravity", "write table.key");
     expect("effects.gravty", "did you mean gravity?");
     expect("effects.vortex", "effects.vortex = 1 ");
@@ -163,6 +164,10 @@ TEST_F(Desk, EffectsAreSwitchedAndComeWhileTheSceneRuns)
     EXPECT_EQ(set("effects.gravity", "false").result, slod_v1_RESULT_APPLIED);
     EXPECT_EQ(simulation.plan().effects[effect_row("gravity")].state(), "off");
     EXPECT_EQ(set("linear_drag.rate", "0.5").result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(set("attractor.0.strength", "0.5").result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(set("attractor.1.strength", "0.25").result, slod_v1_RESULT_APPLIED);
+    EXPECT_EQ(simulation.settings().fields.of<Attractor>().size(), 2U);
+    EXPECT_EQ(set("attractor.9.strength", "1").field, "attractor.9.strength");
     EXPECT_EQ(simulation.plan().effects[effect_row("linear_drag")].state(), "active");
     for (const char* value : {"true", "false"}) {
         const Answer refused = set("effects.vortex", value);

@@ -212,6 +212,21 @@ TEST(LoopSettings, WhatCannotChangeOrDoesNotFitIsRefused)
     EXPECT_EQ(desk.loop().server.threads, ServerSettings{}.threads);
 }
 
+// Whoever moves an attractor from frame to frame leaves the frame rate held; another plan is another scene.
+TEST_F(Regulated, GoesOnWhileValuesChangeUnderTheSamePlan)
+{
+    ASSERT_EQ(editor.set({{"attractor.0.strength", "1e-6"}}, 1), Problems{});
+    const LoopSettings settings = loop(ControlMode::Smooth, 300);
+    for (int i = 0; i < 300; ++i) {
+        ASSERT_EQ(editor.set({{"attractor.0.position", "[" + std::to_string(i) + ", 0, 0]"}}, frame + 1),
+                  Problems{});
+        run(1, settings);
+    }
+    EXPECT_EQ(editor.plan_changes(), 1U);
+    EXPECT_EQ(editor.effect_changes(), 301U);
+    EXPECT_NEAR(double(simulation.snapshot({}).counts.clusters), 300, 15);
+}
+
 TEST(Trace, HasALineForEachFrame)
 {
     const ScratchFolder scratch;

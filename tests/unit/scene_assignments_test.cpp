@@ -103,6 +103,20 @@ TEST(SceneAssignments, ReachASettingByTableAndKey)
     EXPECT_EQ(settings.uniform_wind->velocity, Vector3d(1, 2, 3));
 }
 
+TEST(SceneAssignments, ReachTheTablesOfAnArrayByNumberAndAddOne)
+{
+    SimulationSettings settings;
+    const Assignments wanted{{"attractor.0.strength", "0.5"},
+                             {"attractor.1.position", "[1, 2, 3]"},
+                             {"attractor.0.softening", "0.25"}};
+    EXPECT_EQ(assign_fields(settings, wanted), Problems{});
+    const std::vector<AttractorSettings> expected{{.strength = 0.5, .softening = 0.25},
+                                                  {.position = {1, 2, 3}}};
+    EXPECT_EQ(settings.fields.of<Attractor>(), expected);
+    EXPECT_TRUE(only_says(assign_fields(settings, Assignments{{"attractor.3.strength", "1"}}),
+                          {"attractor.3.strength", "has 2 of", "number 2 adds one"}));
+}
+
 TEST(SceneAssignments, SayWhichSettingIsNone)
 {
     const std::vector<std::pair<std::string, std::string>> wrong{
@@ -110,7 +124,11 @@ TEST(SceneAssignments, SayWhichSettingIsNone)
         {"gravity.lunch", "strength"},
         {"gravitx.strength", "gravity"},
         {"server.threads", "no table of the simulation"},
-        {"emitter.rate", "stay"}};
+        {"emitter.rate", "write emitter.0.rate"},
+        {"attractor.x.strength", "write attractor.0.strength"},
+        {"attractor.0", "write attractor.0.KEY"},
+        {"attractor.1.strength", "the scene has 0 of [[attractor]], counted from 0; number 0 adds one"},
+        {"attractor.0.lunch", "strength"}};
     for (const auto& [key, says] : wrong) {
         SimulationSettings settings;
         EXPECT_TRUE(only_says(assign_fields(settings, Assignments{{key, "1"}}), {key, says})) << key;

@@ -126,6 +126,15 @@ TEST(SimulationSettings, RefuseADegenerateSink)
     EXPECT_TRUE(one_says(problems(settings), {"sink appears 65 times; use at most 64."}));
 }
 
+TEST(SimulationSettings, RefuseMoreElementsOfAnEffectThanTheBound)
+{
+    SimulationSettings settings = sound();
+    settings.fields.of<Attractor>().resize(max_fields);
+    EXPECT_EQ(problems(settings), Problems{});
+    settings.fields.of<Attractor>().resize(max_fields + 1);
+    EXPECT_TRUE(only_says(problems(settings), {"attractor appears 257 times; use at most 256."}));
+}
+
 TEST(SimulationSettings, RefuseKeysThatAnEmittersShapeDoesNotHave)
 {
     const auto says = [](EmitterSettings emitter, const std::string& start) {

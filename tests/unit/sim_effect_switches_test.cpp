@@ -115,6 +115,103 @@ TEST(EffectSwitches, AreOfEveryEffectInThePlansOrder)
         EXPECT_EQ(plan.effects[row].name, effect_names[row]);
 }
 
+/// Single particles among an attractor, a vortex and a wind in a box.
+SmallScene among_fields()
+{
+    SmallScene scene{"among_fields", quiet_settings(), ball(200, 1, 1, 3)};
+    scene.settings.background.max_cluster_size = 1;
+    scene.settings.linear_drag = LinearDragSettings{0.3};
+    scene.settings.fields.of<Attractor>() = {{.position = {1, 0, 0}}};
+    scene.settings.fields.of<Vortex>() = {VortexSettings{}};
+    scene.settings.fields.of<Wind>() = {WindSettings{}};
+    return scene;
+}
+
+// Whoever moves an attractor moves it from frame to frame: nothing is formed anew, and the next frame has it.
+TEST(EffectSwitches, ValuesOfEffectsOfPlaceAreTakenAsTheyAre)
+{
+    const SmallScene scene = among_fields();
+    SimulationSettings other = scene.settings;
+    other.fields.of<Attractor>()[0].position = {0, 2, 0};
+    other.fields.of<Vortex>()[0].strength = -3;
+    other.fields.of<Wind>()[0].velocity = {0, 5, 0};
+    Simulation changed(scene.settings, scene.initial, {}), from_start(other, scene.initial, {}),
+        unchanged(scene.settings, scene.initial, {});
+    ASSERT_EQ(changed.change_settings(other), Problems{});
+    for (Simulation* const each : {&changed, &from_start, &unchanged})
+        run(*each, 20);
+    EXPECT_EQ(changed.state_hash(), from_start.state_hash());
+    EXPECT_NE(changed.state_hash(), unchanged.state_hash());
+}
+
+/// Scenes where emitters, colliders and clocks follow what differs from place to place.
+class ChangingValues : public testing::TestWithParam<SmallScene> {};
+
+// Each frame has other strengths, and one in which an effect has none.
+TEST_P(ChangingValues, FormNothingAnewAndGiveTheSameBitsAtAnyNumberOfThreads)
+{
+    const auto outcome = [&](int threads) {
+        std::uint64_t hash = 0;
+        ThreadTeam(threads).run([&] {
+            Simulation simulation(GetParam().settings, GetParam().initial, {});
+            run(simulation, 2);
+            const Plan plan = simulation.plan();
+            SimulationSettings wanted = GetParam().settings;
+            if (auto& attractors = wanted.fields.of<Attractor>(); !attractors.empty())
+                attractors.push_back({.strength = 0});
+            for (int frame = 0; frame < 40; ++frame) {
+                const auto turn = [&](double& strength) { strength *= frame % 2 == 0 ? 1.25 : 0.8; };
+                for (AttractorSettings& attractor : wanted.fields.of<Attractor>())
+                    turn(attractor.strength);
+                for (WindSettings& wind : wanted.fields.of<Wind>())
+                    turn(wind.velocity.x());
+                if (auto& eddies = wanted.fields.of<Turbulence>())
+                    turn(eddies->amplitude);
+                const ParticleSet before = simulation.particles();
+                EXPECT_EQ(simulation.change_settings(wanted), Problems{});
+                EXPECT_EQ(farthest(before, simulation.particles()), 0)
+                    << "to form clusters anew rounds places";
+                run(simulation, 1);
+                ASSERT_EQ(simulation.problems(), Problems{}) << frame;
+            }
+            EXPECT_TRUE(simulation.plan() == plan);
+            hash = simulation.state_hash();
+        });
+        return hash;
+    };
+    const std::uint64_t alone = outcome(1);
+    EXPECT_EQ(outcome(3), alone);
+    EXPECT_NE(alone, hash_of(GetParam())) << "or else nothing was changed";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ChangingValues,
+                         testing::Values(small_scene("fields"), small_scene("attracted_fields"),
+                                         small_scene("winds"), small_scene("winds_among_obstacles"),
+                                         small_scene("gusts")),
+                         name_of);
+
+TEST(EffectSwitches, FilesOfCollidersStay)
+{
+    const SmallScene scene = small_scene("meshes");
+    Simulation simulation(scene.settings, scene.initial, {});
+    const auto refused = [&](const ColliderSettings& collider, const std::string& key) {
+        SimulationSettings wanted = simulation.settings();
+        wanted.colliders[1] = collider;
+        const Problems found = simulation.change_settings(wanted);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_TRUE(found.front().starts_with(key + " cannot change")) << found.front();
+    };
+    ColliderSettings heights = scene.settings.colliders[1];
+    heights.shape = ColliderShape::Heightfield;
+    refused(heights, "collider.1.shape");
+    refused({.name = "bowl", .shape = ColliderShape::Mesh, .file = "bowl.obj"}, "collider.1.file");
+    ColliderSettings turned = scene.settings.colliders[1];
+    turned.rotation = {0, 0, 45};
+    SimulationSettings wanted = simulation.settings();
+    wanted.colliders[1] = turned;
+    EXPECT_EQ(simulation.change_settings(wanted), Problems{});
+}
+
 // What flies on without the field flies straight.
 TEST(EffectSwitches, WithoutUniformGravityParticlesGoOnStraight)
 {

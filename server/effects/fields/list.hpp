@@ -28,6 +28,9 @@ struct FieldList {
     }
 };
 
+/// Elements of one effect of place in one scene.
+inline constexpr std::size_t max_fields = 256;
+
 /// Accelerations that depend on the place: one line for each effect.
 using ForceFields = FieldList< //
     Attractor,                 //
