@@ -18,7 +18,7 @@ Json gone(Json message)
 template <class Message>
 ExitCode echo(const CommandLine& line, const std::stop_token& stop)
 {
-    client::Connection connection(line.server.domain, line.server.profile, {});
+    client::Connection connection(line.server.domain, line.server.profile, {.regions = !line.region.empty()});
     const client::Clock::time_point end = deadline(line.server);
     if (!wait_for_server(connection, stop, end))
         return ExitCode::NoServer;
@@ -36,9 +36,11 @@ ExitCode echo(const CommandLine& line, const std::stop_token& stop)
         });
         connection.poll();
         if (line.count > 0 && !enough() && client::Clock::now() >= end) {
-            complain(
-                "no sample came in time: is there such a region, and does this server write the topic? Wait "
-                "longer with --timeout");
+            if (connection.knows_all_regions() && !connection.regions().contains(line.region)) {
+                complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
+                return ExitCode::NotFound;
+            }
+            complain("no sample came in time: does this server write the topic? Wait longer with --timeout");
             return ExitCode::TimedOut;
         }
         if (connection.status().contact == client::Contact::NoServer) {

@@ -65,15 +65,20 @@ ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
         return connection.complete_frames() >= line.frames && connection.frame()->frame >= line.from_frame &&
                connection.knows_all_regions();
     };
-    if (!wait_until(connection, stop, end, [&] { return complete() || !present(); }) || !complete()) {
+    const auto region_unknown = [&] {
+        return !line.region.empty() && connection.knows_all_regions() &&
+               !connection.regions().contains(line.region);
+    };
+    wait_until(connection, stop, end, [&] { return complete() || region_unknown() || !present(); });
+    if (region_unknown()) {
+        complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
+        return ExitCode::NotFound;
+    }
+    if (!complete()) {
         complain(no_news_sentence(std::to_string(connection.complete_frames()) +
                                       " frames came in time, and not those asked for",
                                   connection));
         return present() ? ExitCode::TimedOut : ExitCode::NoServer;
-    }
-    if (!line.region.empty() && !connection.regions().contains(line.region)) {
-        complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
-        return ExitCode::NotFound;
     }
     draw(line, connection);
     return ExitCode::Success;

@@ -109,6 +109,9 @@ TEST_F(Commands, ALateClientSeesEveryRegion)
     EXPECT_EQ(control({"roi", "show", "r100"}), 0);
     EXPECT_EQ(answer.at("partition"), "auto") << "only 64 have partitions of their own";
     EXPECT_EQ(control({"roi", "show", "r200"}), int(ExitCode::NotFound));
+    Child lost({SLODCTL, "echo", "clusters", "--region", "r200", "--once", "--timeout", "3", "--domain",
+                domain.text()});
+    EXPECT_EQ(lost.wait(), int(ExitCode::NotFound)) << lost.errors();
 }
 
 TEST_F(Commands, TheRegionOfAClientThatIsGoneEndsWithItsLease)

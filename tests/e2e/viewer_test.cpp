@@ -101,6 +101,9 @@ TEST_F(Viewer, DrawsTheFountainWithoutAScreen)
     EXPECT_EQ(drawn.height(), 400);
     EXPECT_GT(drawn.lit(), 640 * 400 / 1000) << "a stream one pixel wide and a fifth of the picture high";
     EXPECT_LT(drawn.lit(), 640 * 400 / 2) << "the sky is black";
+    Child lost(headless({"--region", "nowhere"}));
+    EXPECT_EQ(lost.wait(), int(ExitCode::NotFound));
+    EXPECT_TRUE(contains(lost.errors(), "no region named nowhere; slodctl roi list")) << lost.errors();
 }
 
 TEST_F(Viewer, SaysThatThereIsNoServerAndWhatToDo)
