@@ -4,6 +4,11 @@ target_compile_options(slod_options INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor
     -ffp-contract=off)      # same bits on every machine; see ARCHITECTURE.md, Determinism
 
+# What kernels are built for besides the baseline; simd/kernels.cpp asks the processor for the same.
+set(slod_v3_options -mavx2 -mfma -mbmi -mbmi2)
+set(slod_v4_options ${slod_v3_options} -mavx512f -mavx512bw -mavx512cd -mavx512dq -mavx512vl
+    -mprefer-vector-width=512)
+
 option(SLOD_VALIDATE "Check every structure's invariants after each phase (slow)" OFF)
 if(SLOD_VALIDATE)
     target_compile_definitions(slod_options INTERFACE SLOD_VALIDATE)
