@@ -50,8 +50,7 @@ class EffectInAScene : public testing::Test {};
 
 TYPED_TEST_SUITE(EffectInAScene, TestTypes<AllFields>::Types, FieldName);
 
-// E-10
-TYPED_TEST(EffectInAScene, OfNoStrengthIsAsIfAbsentToTheBit)
+TYPED_TEST(EffectInAScene, E10_OfNoStrengthIsAsIfAbsentToTheBit)
 {
     SmallScene scene = scene_in_fields();
     const std::uint64_t without = hash_of(scene);
@@ -77,7 +76,7 @@ TYPED_TEST(EffectInAScene, HasTheSameBitsAtAnyNumberOfThreads)
     EXPECT_EQ(hash_of(scene, 8), alone);
 }
 
-// E-1 and E-2: the kernel of what is absent is never called.
+// The kernel of what is absent is never called.
 TYPED_TEST(EffectInAScene, IsTheOnlyOneAsked)
 {
     SmallScene scene = scene_in_fields();
@@ -191,8 +190,7 @@ TEST(QuadraticDragInAScene, IsInTheTangentOfTheStep)
     expect_tangent(settings); // falling in eddies
 }
 
-// E-10
-TEST(QuadraticDragInAScene, OfNoStrengthIsAsIfAbsentToTheBit)
+TEST(QuadraticDragInAScene, E10_OfNoStrengthIsAsIfAbsentToTheBit)
 {
     SmallScene scene = scene_in_fields();
     const std::uint64_t without = hash_of(scene);

@@ -112,7 +112,7 @@ TEST(SpeedLimit, OutOfReachChangesNobody)
         EXPECT_EQ(simulation.step({}).counts.kicked, 0U);
 }
 
-TEST(Brownian, OfNoStrengthIsAsIfAbsentToTheBit)
+TEST(Brownian, E10_OfNoStrengthIsAsIfAbsentToTheBit)
 {
     SmallScene scene = small_scene("mixture");
     const std::uint64_t without = hash_of(scene, 2, 20);
