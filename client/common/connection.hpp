@@ -60,6 +60,10 @@ public:
 
     /// Whether as many regions are known as the server last said it has.
     bool knows_all_regions() const { return server() && regions().size() == server()->regions; }
+    bool lacks_region(const std::string& name) const ///< false as long as that is not known
+    {
+        return knows_all_regions() && !regions().contains(name);
+    }
 
     const ClusterFrame* frame() const { return assembler_.newest(); }
     std::uint64_t complete_frames() const { return assembler_.complete_count(); }

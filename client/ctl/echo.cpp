@@ -36,8 +36,8 @@ ExitCode echo(const CommandLine& line, const std::stop_token& stop)
         });
         connection.poll();
         if (line.count > 0 && !enough() && client::Clock::now() >= end) {
-            if (connection.knows_all_regions() && !connection.regions().contains(line.region)) {
-                complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
+            if (connection.lacks_region(line.region)) {
+                complain(client::no_region_sentence(line.region));
                 return ExitCode::NotFound;
             }
             complain("no sample came in time: does this server write the topic? Wait longer with --timeout");

@@ -33,7 +33,7 @@ ExitCode print_one(const client::Connection& connection, const std::string& name
 {
     const auto found = connection.regions().find(name);
     if (found == connection.regions().end()) {
-        complain("there is no region named " + name + "; slodctl roi list prints all of them");
+        complain(client::no_region_sentence(name));
         return ExitCode::NotFound;
     }
     print(json_of(found->second), as_json);

@@ -65,13 +65,10 @@ ExitCode run_headless(const CommandLine& line, const std::stop_token& stop)
         return connection.complete_frames() >= line.frames && connection.frame()->frame >= line.from_frame &&
                connection.knows_all_regions();
     };
-    const auto region_unknown = [&] {
-        return !line.region.empty() && connection.knows_all_regions() &&
-               !connection.regions().contains(line.region);
-    };
+    const auto region_unknown = [&] { return !line.region.empty() && connection.lacks_region(line.region); };
     wait_until(connection, stop, end, [&] { return complete() || region_unknown() || !present(); });
     if (region_unknown()) {
-        complain("there is no region named " + line.region + "; slodctl roi list prints all of them");
+        complain(client::no_region_sentence(line.region));
         return ExitCode::NotFound;
     }
     if (!complete()) {

@@ -28,18 +28,16 @@ std::vector<Vector3d> placed_vertices(const ColliderSettings& settings)
 }
 
 /// The largest coordinate of any vertex.
-double reach(const ColliderSettings& settings)
+double reach(const std::vector<Vector3d>& vertices)
 {
     double reach = 0;
-    for (const Vector3d& vertex : placed_vertices(settings))
+    for (const Vector3d& vertex : vertices)
         reach = std::max(reach, vertex.cwiseAbs().maxCoeff());
     return reach;
 }
 
-bool has_area(const ColliderSettings& settings)
+bool has_area(const std::vector<Vector3d>& vertices, const std::vector<Mesh::Triangle>& triangles)
 {
-    const std::vector<Vector3d> vertices = placed_vertices(settings);
-    const std::vector<Mesh::Triangle>& triangles = settings.mesh->triangles;
     return std::any_of(triangles.begin(), triangles.end(), [&](const Mesh::Triangle& triangle) {
         const auto corner = [&](std::size_t i) { return vertices[triangle[i]]; };
         return !triangle_normal(corner(0), corner(1), corner(2)).isZero(0);
@@ -55,11 +53,13 @@ Problems sheet_problems(const ColliderSettings& settings)
         found.push_back("scale = 0 leaves no surface; use more than 0.");
     if (settings.shape == ColliderShape::Heightfield && settings.spacing == 0)
         found.push_back("spacing = 0 leaves no surface; use more than 0.");
-    if (found.empty() && settings.mesh && !has_area(settings))
+    const std::vector<Vector3d> vertices =
+        settings.mesh ? placed_vertices(settings) : std::vector<Vector3d>{};
+    if (found.empty() && settings.mesh && !has_area(vertices, settings.mesh->triangles))
         found.push_back("file = \"" + settings.file +
                         "\": no triangle in it has an area; give it three vertices that are apart and not in "
                         "line, or name another file.");
-    const double least = settings.mesh ? thinnest * reach(settings) : 0;
+    const double least = thinnest * reach(vertices);
     if (settings.thickness <= least)
         found.push_back("thickness = " + number_text(settings.thickness) +
                         " is no more than what rounding may pass; use more than " + number_text(least) + ".");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "sim/state.hpp"
 
@@ -177,19 +178,15 @@ Problems Simulation::change_settings(const SimulationSettings& wanted)
 /// Under the same plan.
 void Simulation::State::take(const SimulationSettings& wanted)
 {
-    const auto before = settings.gravity;
-    const FieldSettings fields_before = settings.fields;
     asked = wanted;
-    settings = called_for(wanted);
+    const SimulationSettings before = std::exchange(settings, called_for(wanted));
     describe_effects(plan, wanted);
-    forces_stale = forces_stale || settings.gravity != before;
-    if (before)
-        scale_pulls(before->strength > 0 ? settings.gravity->strength / before->strength : 0);
+    forces_stale = forces_stale || settings.gravity != before.gravity || settings.fields != before.fields;
+    if (before.gravity)
+        scale_pulls(before.gravity->strength > 0 ? settings.gravity->strength / before.gravity->strength : 0);
     set_fields();
-    if (settings.fields != fields_before) {
+    if (settings.fields != before.fields)
         place_fields();
-        forces_stale = true;
-    }
     set_detail();
     meter.forget();
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +14,7 @@
 
 #include "core/random.hpp"
 #include "sim/simulation.hpp"
+#include "support/field_tables.hpp"
 
 namespace {
 
@@ -51,29 +51,29 @@ void add_field(FieldSettings& fields, std::size_t wanted)
 {
     std::size_t row = 0;
     for_each_field_table(fields, [&]<class F>(typename F::Table& table) {
-        if (row++ != wanted)
-            return;
-        if constexpr (requires { table.emplace_back(); })
-            table.emplace_back();
-        else
-            table.emplace();
+        if (row++ == wanted)
+            test::add_element(table, typename F::Settings{});
     });
+}
+
+SimulationSettings settings_with(const std::vector<std::size_t>& fields)
+{
+    SimulationSettings settings = resisting_air();
+    for (const std::size_t field : fields)
+        add_field(settings.fields, field);
+    return settings;
 }
 
 class Run {
 public:
-    Run(std::vector<std::size_t> fields, const ParticleSet& particles) : fields_(std::move(fields))
-    {
-        SimulationSettings settings = resisting_air();
-        for (const std::size_t field : fields_)
-            add_field(settings.fields, field);
-        simulation_.emplace(settings, particles, Simulation::Options{});
-    }
+    Run(std::vector<std::size_t> fields, const ParticleSet& particles)
+        : fields_(std::move(fields)), simulation_(settings_with(fields_), particles, {})
+    {}
 
     void frame()
     {
         const Clock::time_point start = Clock::now();
-        simulation_->step({});
+        simulation_.step({});
         frames_ms_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     }
 
@@ -88,7 +88,7 @@ public:
 
 private:
     std::vector<std::size_t> fields_;
-    std::optional<Simulation> simulation_;
+    Simulation simulation_;
     std::vector<double> frames_ms_;
 };
 
