@@ -185,12 +185,16 @@ void form_cluster(ClusterStore& store, ClusterSlot cluster, std::span<Particle> 
     start_columns(store, slot, centre, frame);
     const Rows rows = rows_of(store.members, clusters.slab[slot]);
     std::uint32_t row = 0;
+    float farthest = 0, fastest = 0; // squared
     for (const Particle& particle : particles) {
         const FormedOffset offset{(particle.position - centre.position).cast<float>(),
                                   (particle.velocity - centre.velocity).cast<float>()};
         write_row(rows, row++, particle, offset);
-        note_bounds(clusters, slot, offset);
+        farthest = std::max(farthest, offset.position.squaredNorm());
+        fastest = std::max(fastest, offset.velocity.squaredNorm());
     }
+    clusters.offset_max[slot] = std::sqrt(farthest);
+    clusters.speed_max[slot] = std::sqrt(fastest);
     clusters.stored[slot] = clusters.count[slot] = row;
     sum_up(store, slot, frame);
     if (clusters.columns.expiry)

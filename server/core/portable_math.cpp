@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/sincos.inl"
+
 namespace slod {
 namespace {
 
@@ -33,17 +35,6 @@ double expm1_reduced(double r)
                        r4 * ((over[6] + r * over[7]) + r2 * (over[8] + r * over[9]));
     const double high = ((over[10] + r * over[11]) + r2 * (over[12] + r * over[13])) + r4 * over[14];
     return r + r2 * (low + r8 * high);
-}
-
-/// (sin r - r) / r^3 and (cos r - 1) / r^2 for |r| <= pi/4, by pairs of pairs; the first terms left out are
-/// 1e-19 and 2e-18 of sine and cosine.
-SineCosine sincos_reduced(double r)
-{
-    const double x = r * r, x2 = x * x, x4 = x2 * x2;
-    return {((x * over[5] - over[3]) + x2 * (x * over[9] - over[7])) +
-                x4 * ((x * over[13] - over[11]) + x2 * (x * over[17] - over[15])),
-            ((x * over[4] - over[2]) + x2 * (x * over[8] - over[6])) +
-                x4 * ((x * over[12] - over[10]) + x2 * (x * over[16] - over[14]))};
 }
 
 } // namespace
@@ -89,27 +80,8 @@ double portable_log(double x)
 
 SineCosine portable_sincos(double angle)
 {
-    // pi/2 in three parts of 33 bits (Cody and Waite 1980).
-    constexpr double half_pi_1 = 1.57079632673412561417e+00;
-    constexpr double half_pi_2 = 6.07710050630396597660e-11;
-    constexpr double half_pi_3 = 2.02226624879595063154e-21;
-    constexpr double whole = 0x1.8p52; // a sum with this has no bits for a fraction left
-    const double quadrant = (angle * (1 / half_pi_1) + whole) - whole;
-    const double r = ((angle - quadrant * half_pi_1) - quadrant * half_pi_2) - quadrant * half_pi_3;
-    const double r2 = r * r;
-    const SineCosine bent = sincos_reduced(r);
-    const double sine = r + r * r2 * bent.sine;
-    const double cosine = 1 + r2 * bent.cosine;
-    switch (static_cast<long long>(quadrant) & 3) {
-    case 0:
-        return {sine, cosine};
-    case 1:
-        return {cosine, -sine};
-    case 2:
-        return {-sine, -cosine};
-    default:
-        return {-cosine, sine};
-    }
+    const Turn turn = turn_of(angle);
+    return {turn.sine, turn.cosine};
 }
 
 } // namespace slod

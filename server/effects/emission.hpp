@@ -23,7 +23,7 @@ public:
              const Colliders* colliders = nullptr, const Air* air = nullptr, const Sinks* sinks = nullptr);
 
     /// Newborns fly through other fields from here on.
-    void set_fields(const UniformFields& fields) { fields_ = fields; }
+    void set_fields(const UniformFields& fields) { surroundings_.fields = fields; }
 
     /// A cluster formed in this frame, and the mean age of its members at the frame's end.
     struct NewCluster {
@@ -37,8 +37,8 @@ public:
     };
 
     /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused, and
-    /// those left out that are in a sink at its end. Where a kick of the length `closing_kick` follows,
-    /// particles that join a cohort get its acceleration for their own time only.
+    /// those left out that end within it or are in a sink at its end. Where a kick of the length
+    /// `closing_kick` follows, particles that join a cohort get its acceleration for their own time only.
     Births update(SlodTree& tree, const UpdateContext& context, double closing_kick, std::uint64_t room);
 
     const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
@@ -50,20 +50,31 @@ public:
     std::vector<std::uint64_t> counts_before(double time) const;
 
 private:
-    std::size_t join_cohort(SlodTree& tree, ClusterId cohort, const UpdateContext& context,
+    /// What an emitter starts in a frame, and where among the newborns that is.
+    struct Brood {
+        Emitter::Starts starts;
+        std::size_t first = 0, count = 0;
+    };
+
+    Births bear(const UpdateContext& context, std::uint64_t room);
+    bool bear(std::size_t emitter, std::size_t begin, std::size_t end);
+    void leave_out_dead(std::uint64_t frame);
+    std::size_t join_cohort(SlodTree& tree, std::size_t emitter, const UpdateContext& context,
                             double closing_kick);
-    void found(SlodTree& tree, std::size_t emitter, std::size_t first, const UpdateContext& context);
+    void gather(const SlodTree& tree, std::size_t emitter, std::size_t joined);
+    void found(SlodTree& tree, const UpdateContext& context);
+    void note_new_clusters(const SlodTree& tree, const Grouping::Group& group, ClusterTable& clusters);
 
     std::vector<Emitter> emitters_;
-    UniformFields fields_;
+    Surroundings surroundings_;
     double mid_life_;
-    const Colliders* colliders_;
-    const Air* air_;
     const Sinks* sinks_;
-    std::vector<ClusterId> cohorts_; ///< by emitter
-    std::vector<Newborn> newborns_;
+    std::vector<ClusterId> cohorts_;    ///< by emitter
+    std::vector<Brood> broods_;         ///< by emitter
+    Grouping grouping_;                 ///< all newborns; in its order those who found clusters
+    std::vector<double> ages_;          ///< by newborn
+    std::vector<std::size_t> founders_; ///< the emitter of each group
     std::vector<NewCluster> new_clusters_;
-    Grouping grouping_;
 };
 
 } // namespace slod

@@ -1,5 +1,6 @@
 #include "effects/emitter_shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -13,29 +14,29 @@ namespace slod {
 namespace {
 
 /// A point of the unit circle across the emitter's direction.
-Vector3d on_circle(const EmitterAxes& axes, Random& random)
+Vector3d on_circle(const EmitterAxes& axes, DrawnNumbers& random)
 {
     const auto turn = portable_sincos(2 * std::numbers::pi * random.uniform());
     return turn.cosine * axes.side + turn.sine * axes.other_side;
 }
 
-double symmetric(Random& random)
+double symmetric(DrawnNumbers& random)
 {
     return 2 * random.uniform() - 1;
 }
 
-Vector3d of_point(const EmitterSettings&, const EmitterAxes&, Random&)
+Vector3d of_point(const EmitterSettings&, const EmitterAxes&, DrawnNumbers)
 {
     return {0, 0, 0};
 }
 
-Vector3d of_ring(const EmitterSettings& settings, const EmitterAxes& axes, Random& random)
+Vector3d of_ring(const EmitterSettings& settings, const EmitterAxes& axes, DrawnNumbers random)
 {
     return settings.radius * on_circle(axes, random);
 }
 
 /// The area within a radius grows with its square.
-Vector3d of_disc(const EmitterSettings& settings, const EmitterAxes& axes, Random& random)
+Vector3d of_disc(const EmitterSettings& settings, const EmitterAxes& axes, DrawnNumbers random)
 {
     const double hole = settings.inner_radius / settings.radius;
     const double r = std::sqrt(hole * hole + random.uniform() * (1 - hole * hole));
@@ -44,7 +45,7 @@ Vector3d of_disc(const EmitterSettings& settings, const EmitterAxes& axes, Rando
 
 /// Archimedes: what lies between two parallel planes is in proportion to their distance. The volume within a
 /// radius grows with its cube.
-Vector3d of_sphere(const EmitterSettings& settings, const EmitterAxes& axes, Random& random)
+Vector3d of_sphere(const EmitterSettings& settings, const EmitterAxes& axes, DrawnNumbers random)
 {
     const double height = symmetric(random);
     const Vector3d direction =
@@ -58,7 +59,7 @@ Vector3d of_sphere(const EmitterSettings& settings, const EmitterAxes& axes, Ran
 }
 
 /// On a surface one pair of faces is drawn by its area.
-Vector3d of_box(const EmitterSettings& settings, const EmitterAxes&, Random& random)
+Vector3d of_box(const EmitterSettings& settings, const EmitterAxes&, DrawnNumbers random)
 {
     const Vector3d& half = settings.half_extent;
     Vector3d share{symmetric(random), symmetric(random), symmetric(random)};
@@ -75,12 +76,14 @@ Vector3d of_box(const EmitterSettings& settings, const EmitterAxes&, Random& ran
 /// In the order of EmitterShape.
 constexpr std::array<EmitterShapeKind, 5> kinds{{
     {.draw = of_point},
-    {.draw = of_disc, .radius = true, .inner_radius = true},
-    {.draw = of_ring, .radius = true},
-    {.draw = of_sphere, .radius = true, .inner_radius = true, .fill = true},
-    {.draw = of_box, .half_extent = true, .fill = true},
+    {.draw = of_disc, .numbers = 2, .radius = true, .inner_radius = true},
+    {.draw = of_ring, .numbers = 1, .radius = true},
+    {.draw = of_sphere, .numbers = 3, .radius = true, .inner_radius = true, .fill = true},
+    {.draw = of_box, .numbers = 4, .half_extent = true, .fill = true},
 }};
 static_assert(kinds.size() == names(EmitterShape{}).size());
+static_assert(std::ranges::max(kinds, {}, &EmitterShapeKind::numbers).numbers ==
+              EmitterShapeKind::most_numbers);
 
 } // namespace
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/random.hpp"
+#include <cstddef>
+
 #include "effects/emitter_settings.hpp"
 
 namespace slod {
@@ -10,12 +11,33 @@ struct EmitterAxes {
     Vector3d forward, side, other_side;
 };
 
+/// Random numbers of one particle, in (0, 1), that have been drawn beforehand.
+class DrawnNumbers {
+public:
+    /// They are `stride` apart.
+    DrawnNumbers(const double* first, std::size_t stride) : next_(first), stride_(stride) {}
+
+    double uniform()
+    {
+        const double number = *next_;
+        next_ += stride_;
+        return number;
+    }
+
+private:
+    const double* next_;
+    std::size_t stride_;
+};
+
 /// A shape that particles start from. `draw` gives the offset of one from the shape's centre, distributed
-/// evenly; it depends on the settings and what it draws alone.
+/// evenly, by `numbers` random numbers at most.
 struct EmitterShapeKind {
-    using Draw = Vector3d (*)(const EmitterSettings&, const EmitterAxes&, Random&);
+    using Draw = Vector3d (*)(const EmitterSettings&, const EmitterAxes&, DrawnNumbers);
+
+    static constexpr std::size_t most_numbers = 4; ///< of all kinds
 
     Draw draw;
+    std::size_t numbers = 0;
     // Which keys say how large it is.
     bool radius = false, inner_radius = false, half_extent = false, fill = false;
 };

@@ -46,7 +46,7 @@ SlodTree tree_of(const SimulationSettings& settings, const ParticleSet& initial)
     return tree;
 }
 
-std::vector<Emitter> emitters_of(const SimulationSettings& settings)
+std::vector<Emitter> emitters_of(const SimulationSettings& settings, const simd::NumberKernels& numbers)
 {
     std::vector<Emitter> emitters;
     for (const EmitterSettings& emitter : settings.emitters) {
@@ -54,7 +54,7 @@ std::vector<Emitter> emitters_of(const SimulationSettings& settings)
         const auto kind = std::find_if(settings.kinds.begin(), settings.kinds.end(), named);
         SLOD_ASSERT(kind != settings.kinds.end());
         emitters.emplace_back(emitter, std::uint32_t(emitters.size()),
-                              std::uint8_t(kind - settings.kinds.begin()), settings.seed);
+                              std::uint8_t(kind - settings.kinds.begin()), settings.seed, numbers);
     }
     return emitters;
 }
@@ -104,7 +104,8 @@ Simulation::State::State(const SimulationSettings& wanted, const ParticleSet& in
       regrouping(settings.motion, context()), air(air_of(settings, plan, fields, tick)),
       collisions(collisions_of(settings, plan, fields, plan.local_air ? &*air : nullptr)),
       draining(draining_of(settings)),
-      emission(emitters_of(settings), fields, 0.5 * settings.motion.longest_life * settings.time.step,
+      emission(emitters_of(settings, kernels->numbers), fields,
+               0.5 * settings.motion.longest_life * settings.time.step,
                collisions ? &collisions->colliders() : nullptr, air ? &*air : nullptr,
                draining ? &draining->sinks() : nullptr),
       meter(settings.seed), particle_count(initial.size())

@@ -168,11 +168,4 @@ struct GravityKernels {
     void (*add_potential)(const PotentialTargets<Real>&, const GravitySources<Real>&, std::ptrdiff_t self);
 };
 
-/// One instruction set's kernels.
-struct KernelTable {
-    const char* name; ///< the x86-64 level: "baseline", "v3" or "v4"
-    GravityKernels<float> in_float;
-    GravityKernels<double> in_double;
-};
-
 } // namespace slod::simd

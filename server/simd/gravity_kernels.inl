@@ -1,13 +1,9 @@
-// The body of the gravity kernels. Each gravity_kernels_<isa>.cpp names its instruction set and the size
-// of its registers, includes this, and has its own -march.
+// The gravity kernels of one instruction set; see kernel_table.inl.
 //
 // The lanes of a register are targets; sources pass by them one after another. No sum crosses lanes, so
 // the size of a register changes no bit of the result. Registers are the compiler's vector types, not
 // plain loops over lanes: g++ 12 vectorises those too, but keeps the sums in memory once pairs are
 // evaluated ahead (see add).
-//
-// Nothing here may call an inline function of another header: the linker keeps one copy of it, and might
-// keep the one built for a processor we lack.
 
 #include "simd/gravity_kernels.hpp"
 
@@ -232,8 +228,5 @@ constexpr GravityKernels<Real> gravity_kernels = {
 };
 
 } // namespace
-
-extern const KernelTable table;
-constinit const KernelTable table = {name, gravity_kernels<float>, gravity_kernels<double>};
 
 } // namespace slod::simd::SLOD_ISA

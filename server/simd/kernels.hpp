@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "simd/gravity_kernels.hpp"
+#include "simd/kernel_table.hpp"
 
 namespace slod::simd {
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <immintrin.h>
 #include <limits>
 
 #include "core/assert.hpp"
 #include "core/parallel.hpp"
-#include "core/vectors.hpp"
 
 namespace slod {
 namespace {
@@ -29,17 +29,19 @@ struct Side {
 
 Side longest_side(std::span<const DivisionKey> keys)
 {
-    Vector3f lower = Vector3f::Constant(std::numeric_limits<float>::infinity()), upper = -lower;
+    // Whole keys in a register: what their index comes to as a number does not matter.
+    static_assert(sizeof(DivisionKey) == sizeof(__m128));
+    __m128 lowest = _mm_set1_ps(std::numeric_limits<float>::infinity()), highest = -lowest;
     for (const DivisionKey& key : keys) {
-        const Eigen::Map<const Vector3f> x(key.x);
-        lower = lower.cwiseMin(x);
-        upper = upper.cwiseMax(x);
+        const __m128 x = _mm_loadu_ps(reinterpret_cast<const float*>(&key));
+        lowest = _mm_min_ps(x, lowest); // what is no number changes neither
+        highest = _mm_max_ps(x, highest);
     }
-    const Vector3f length = upper - lower;
-    Side longest{0, lower[0], length[0]};
-    for (int axis = 1; axis < 3; ++axis)
+    const __m128 length = highest - lowest;
+    Side longest{0, lowest[0], length[0]};
+    for (std::size_t axis = 1; axis < 3; ++axis)
         if (length[axis] > longest.length)
-            longest = {std::size_t(axis), lower[axis], length[axis]};
+            longest = {axis, lowest[axis], length[axis]};
     return longest;
 }
 
@@ -52,28 +54,29 @@ std::uint64_t rank_of(const DivisionKey& key, std::size_t axis)
     return std::uint64_t{ordered} << 32 | key.index;
 }
 
-/// The rank that `lower` of the keys are below. A histogram finds the few to choose it from, without a branch
-/// that depends on where a key is: no processor could foretell those.
+/// The rank that `lower` of the keys are below. A histogram finds the few to choose it from, so that hardly a
+/// branch depends on where a key is: no processor could foretell those.
 std::uint64_t rank_at(std::span<const DivisionKey> keys, const Side& side, std::uint32_t lower,
                       std::span<DivisionKey> spare)
 {
-    constexpr std::size_t bins = 256;
+    constexpr std::size_t most_bins = 256;
+    const std::size_t bins = std::min(most_bins, std::bit_ceil(keys.size() / 16 + 1));
     const float per_length = float(bins) / side.length;
     const auto bin_of = [&](const DivisionKey& key) {
         const float bin = (key.x[side.axis] - side.lower) * per_length;
-        return std::size_t(std::min(float(bins - 1), bin)); // also of what is no number
+        return std::size_t(int(std::min(float(bins - 1), bin))); // also of what is no number
     };
-    std::array<std::uint32_t, bins> counts{};
+    std::array<std::uint32_t, most_bins> counts;
+    std::fill_n(counts.begin(), bins, 0U);
     for (const DivisionKey& key : keys)
         ++counts[bin_of(key)];
     std::size_t bin = 0;
     for (; lower >= counts[bin]; ++bin)
         lower -= counts[bin];
     std::size_t found = 0;
-    for (const DivisionKey& key : keys) {
-        spare[found] = key;
-        found += bin_of(key) == bin ? 1 : 0;
-    }
+    for (const DivisionKey& key : keys)
+        if (bin_of(key) == bin)
+            spare[found++] = key;
     const auto before = [&](const DivisionKey& a, const DivisionKey& b) {
         return rank_of(a, side.axis) < rank_of(b, side.axis);
     };
@@ -86,15 +89,14 @@ void halve(std::span<DivisionKey> keys, std::span<DivisionKey> spare, std::uint3
 {
     const Side side = longest_side(keys);
     const std::uint64_t middle = rank_at(keys, side, lower, spare);
-    std::size_t below = 0, above = 0;
+    std::size_t below = 0;
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        const bool is_below = rank_of(keys[i], side.axis) < middle;
+        const std::size_t is_below = rank_of(keys[i], side.axis) < middle ? 1 : 0;
         const DivisionKey key = keys[i];
-        keys[below] = spare[above] = key;
-        below += is_below ? 1 : 0;
-        above += is_below ? 0 : 1;
+        keys[below] = spare[i - below] = key;
+        below += is_below;
     }
-    std::copy_n(spare.begin(), above, keys.begin() + std::ptrdiff_t(below));
+    std::copy_n(spare.begin(), keys.size() - below, keys.begin() + std::ptrdiff_t(below));
 }
 
 } // namespace

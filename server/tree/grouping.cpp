@@ -165,10 +165,8 @@ void form_groups(Grouping& grouping, const UpdateContext& context)
     grouping.spare_keys.resize(grouping.order.size());
     grouping.ordered.resize(grouping.order.size());
     take_slots(grouping, context.store);
-    for_each_block(grouping.groups.size(), 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t group = begin; group < end; ++group)
-            form_group(grouping, grouping.groups[group], context);
-    });
+    for_each_task(grouping.groups.size(),
+                  [&](std::size_t group) { form_group(grouping, grouping.groups[group], context); });
 }
 
 void form_groups_in_order(Grouping& grouping, const UpdateContext& context)

@@ -13,6 +13,7 @@
 #include "effects/emitter.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
+#include "support/newborns.hpp"
 
 // The fountain scene at 64 droplets per cluster against every droplet's own closed-form path, from its birth
 // until its death: one stream, then two, then three, and two and a half seconds of all three in full.
@@ -52,7 +53,7 @@ public:
     {
         std::vector<Newborn> newborns;
         for (const Emitter& emitter : emitters_)
-            emitter.emit(frame, step_, UniformFields{}, std::numeric_limits<std::uint64_t>::max(), newborns);
+            test::add_newborns(emitter, frame, step_, UniformFields{}, newborns);
         for (const Newborn& born : newborns) {
             const Particle& particle = born.particle;
             living_[particle.id] = {double(frame) * step_ - born.age,

@@ -7,6 +7,7 @@
 #include "effects/emission.hpp"
 #include "support/case_rows.hpp"
 #include "support/little_worlds.hpp"
+#include "support/newborns.hpp"
 
 namespace slod {
 namespace {
@@ -141,7 +142,7 @@ TEST(Emission, ParticlesFollowTheirOwnPathsHoweverLongTheirCohortStaysOpen)
         for (auto& [id, particle] : expected)
             fields.over(step).apply(particle.position, particle.velocity);
         std::vector<Newborn> born;
-        emitter.emit(fountain.frame, step, fields, unlimited, born);
+        test::add_newborns(emitter, fountain.frame, step, fields, born);
         for (const Newborn& newborn : born)
             expected[newborn.particle.id] = newborn.particle;
     }
@@ -164,7 +165,7 @@ TEST(Emission, NewClustersTellTheMeanAgeOfTheirMembers)
         std::map<std::uint64_t, double> age;
         for (const Emitter& emitter : emitters) {
             std::vector<Newborn> born;
-            emitter.emit(fountain.frame, step, {}, unlimited, born);
+            test::add_newborns(emitter, fountain.frame, step, {}, born);
             for (const Newborn& newborn : born)
                 age[newborn.particle.id] = newborn.age;
         }
@@ -191,7 +192,7 @@ TEST(Emission, AKickedNewbornThatJoinsGetsTheRestOfItsOwnTime)
     const Vector3d pull{3, -2, 5};
     kicked.world.store.clusters.acceleration[0] = pull;
     std::vector<Newborn> born;
-    Fountain::emitters_of({jet(5)}).front().emit(2, step, {}, unlimited, born);
+    test::add_newborns(Fountain::emitters_of({jet(5)}).front(), 2, step, {}, born);
     kicked.emission.update(kicked.world.tree, kicked.world.context(2), 0.5 * kicked.world.context(2).step,
                            unlimited);
     free.emission.update(free.world.tree, free.world.context(2), 0, unlimited);

@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "effects/emitter.hpp"
+#include "support/newborns.hpp"
 
 // Where the particles of each shape start, and those of an emitter that moves.
 namespace slod {
 namespace {
 
-constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 constexpr int count = 100'000;
 constexpr double step = 1;
 
@@ -32,7 +32,7 @@ EmitterSettings emitter_with(EmitterShape shape)
 std::vector<Vector3d> offsets_of(const EmitterSettings& settings)
 {
     std::vector<Newborn> all;
-    Emitter(settings, 2, 0, 99).emit(1, step, {}, unlimited, all);
+    test::add_newborns(Emitter(settings, 2, 0, 99), 1, step, {}, all);
     std::vector<Vector3d> offsets;
     for (const Newborn& born : all)
         offsets.push_back(born.particle.position - settings.position);
@@ -192,10 +192,10 @@ TEST(EmitterShape, ChangesNoVelocity)
     settings.speed = 3;
     settings.cone_angle_deg = 50;
     std::vector<Newborn> from_point, from_sphere;
-    Emitter(settings, 2, 0, 99).emit(1, step, {}, 1000, from_point);
+    test::add_newborns(Emitter(settings, 2, 0, 99), 1, step, {}, from_point);
     settings.shape = EmitterShape::Sphere;
     settings.radius = 1;
-    Emitter(settings, 2, 0, 99).emit(1, step, {}, 1000, from_sphere);
+    test::add_newborns(Emitter(settings, 2, 0, 99), 1, step, {}, from_sphere);
     for (std::size_t i = 0; i < from_point.size(); ++i)
         ASSERT_EQ(from_point[i].particle.velocity, from_sphere[i].particle.velocity);
 }
@@ -216,7 +216,7 @@ TEST(Emitter, ThatMovesHandsOnItsShareOfItsVelocity)
         for (const double length : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
             std::vector<Newborn> all;
             for (std::uint64_t frame = 1; double(frame) * length <= 2; ++frame)
-                emitter.emit(frame, length, {}, unlimited, all);
+                test::add_newborns(emitter, frame, length, {}, all);
             ASSERT_NEAR(double(all.size()), 1.6 * 77, 2);
             double frame_end = 0;
             for (std::size_t k = 0; k < all.size(); ++k) {

@@ -8,11 +8,10 @@
 
 #include "effects/emitter.hpp"
 #include "support/case_rows.hpp"
+#include "support/newborns.hpp"
 
 namespace slod {
 namespace {
-
-constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double step = 0.02;
@@ -40,7 +39,7 @@ std::vector<Newborn> emit(const Emitter& emitter, std::uint64_t frames, double f
 {
     std::vector<Newborn> all;
     for (std::uint64_t frame = 1; frame <= frames; ++frame)
-        emitter.emit(frame, frame_length, fields, unlimited, all);
+        test::add_newborns(emitter, frame, frame_length, fields, all);
     return all;
 }
 
@@ -52,7 +51,7 @@ TEST(Emitter, F33_AFractionalRateIsMetToOneParticleAtEveryTime)
         const Emitter emitter = emitter_of(settings);
         std::vector<Newborn> all;
         for (std::uint64_t frame = 1; frame <= 200; ++frame) {
-            emitter.emit(frame, step, {}, unlimited, all);
+            test::add_newborns(emitter, frame, step, {}, all);
             test::expect_at_most("particles too many or too few",
                                  std::abs(double(all.size()) - per_frame * double(frame)), 1);
             ASSERT_EQ(all.size(), emitter.count_before(double(frame) * step));
@@ -91,7 +90,7 @@ TEST(Emitter, N15_AfterABillionFramesParticlesStartAndDieOnTime)
     double worst = 0, worst_death = 0;
     for (std::uint64_t frame = start + 1; frame <= start + 600; ++frame) {
         std::vector<Newborn> all;
-        emitter.emit(frame, length, {}, unlimited, all);
+        test::add_newborns(emitter, frame, length, {}, all);
         for (const Newborn& born : all) {
             ASSERT_EQ(born.particle.id, (3ULL << Emitter::id_shift) + next);
             const long double birth = static_cast<long double>(next++) / settings.rate;
@@ -133,7 +132,7 @@ TEST(Emitter, N16_IdsGoOnBeyondTwoToTheThirtySecond)
     settings.rate = double(wrap) / ((double(frame) - 0.5) * step);
     const Emitter emitter = emitter_of(settings);
     std::vector<Newborn> all;
-    emitter.emit(frame, step, {}, unlimited, all);
+    test::add_newborns(emitter, frame, step, {}, all);
     ASSERT_FALSE(all.empty());
     const std::uint64_t first = 3ULL << Emitter::id_shift;
     EXPECT_LT(all.front().particle.id - first, wrap);
@@ -281,7 +280,7 @@ TEST(Emitter, F34_AParticleIsThereAtTheFramesEndsWithinItsLifetime)
         std::size_t started = 0;
         for (std::uint64_t frame = 1; frame <= 50; ++frame) {
             std::vector<Newborn> all;
-            emitter_of(settings).emit(frame, step, {}, unlimited, all);
+            test::add_newborns(emitter_of(settings), frame, step, {}, all);
             started += all.size();
             for (const Newborn& born : all) {
                 const double death = double(frame) * step - born.age + lifetime;

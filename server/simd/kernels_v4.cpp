@@ -7,4 +7,4 @@ constexpr unsigned register_bytes = 64;
 } // namespace
 } // namespace slod::simd::SLOD_ISA
 
-#include "simd/gravity_kernels.inl"
+#include "simd/kernel_table.inl"
