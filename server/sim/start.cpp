@@ -76,12 +76,12 @@ std::optional<Draining> draining_of(const SimulationSettings& settings)
 }
 
 std::optional<Air> air_of(const SimulationSettings& settings, const Plan& plan, const UniformFields& fields,
-                          const Tick& tick)
+                          const Tick& tick, const simd::KernelTable& kernels)
 {
     if (!plan.air)
         return {};
     return std::optional<Air>(std::in_place, fields, settings.quadratic_drag, settings.fields,
-                              FieldSource{settings.seed}, settings.time.step, tick);
+                              FieldSource{settings.seed, &kernels.waves}, settings.time.step, tick);
 }
 
 } // namespace
@@ -101,7 +101,7 @@ Simulation::State::State(const SimulationSettings& wanted, const ParticleSet& in
       store(cluster_columns(plan), {plan.several_masses, plan.several_kinds, plan.finite_lives},
             map_rule(plan, fields, settings.time.step)),
       tree(std::move(start.tree)), reforming(settings.motion, context()),
-      regrouping(settings.motion, context()), air(air_of(settings, plan, fields, tick)),
+      regrouping(settings.motion, context()), air(air_of(settings, plan, fields, tick, *kernels)),
       collisions(collisions_of(settings, plan, fields, plan.local_air ? &*air : nullptr)),
       draining(draining_of(settings)),
       emission(emitters_of(settings, kernels->numbers), fields,
@@ -119,7 +119,8 @@ Simulation::State::State(const SimulationSettings& wanted, const ParticleSet& in
     if (plan.member_kicks)
         member_kicks.emplace(settings.speed_limit, settings.brownian, settings.seed);
     if (plan.field_forces)
-        field_forces.emplace(settings.fields, FieldSource{settings.seed}, settings.gravity.has_value(), tick);
+        field_forces.emplace(settings.fields, FieldSource{settings.seed, &kernels->waves},
+                             settings.gravity.has_value(), tick);
     set_detail();
     tree.merging = tree.merging || plan.merging;
     if (tree.regions.size() > 1)

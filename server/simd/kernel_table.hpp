@@ -2,6 +2,7 @@
 
 #include "simd/gravity_kernels.hpp"
 #include "simd/number_kernels.hpp"
+#include "simd/wave_kernels.hpp"
 
 namespace slod::simd {
 
@@ -11,6 +12,7 @@ struct KernelTable {
     GravityKernels<float> in_float;
     GravityKernels<double> in_double;
     NumberKernels numbers;
+    WaveKernels waves;
 };
 
 } // namespace slod::simd

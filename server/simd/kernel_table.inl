@@ -7,10 +7,12 @@
 #include "simd/gravity_kernels.inl"
 #include "simd/kernel_table.hpp"
 #include "simd/number_kernels.inl"
+#include "simd/wave_kernels.inl"
 
 namespace slod::simd::SLOD_ISA {
 
 extern const KernelTable table;
-constinit const KernelTable table = {name, gravity_kernels<float>, gravity_kernels<double>, number_kernels};
+constinit const KernelTable table = {name, gravity_kernels<float>, gravity_kernels<double>, number_kernels,
+                                     wave_kernels};
 
 } // namespace slod::simd::SLOD_ISA

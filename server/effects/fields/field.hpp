@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "core/settings.hpp"
 #include "core/vectors.hpp"
+#include "simd/kernels.hpp"
 #include "tree/box.hpp"
 
 namespace slod {
@@ -22,6 +24,7 @@ struct FieldValue {
 /// What a field may depend on besides its settings.
 struct FieldSource {
     std::uint64_t seed = 0; ///< of the scene
+    const simd::WaveKernels* waves = &simd::kernels().waves;
 };
 
 /// One element of one table of a scene. The class is all that the program knows of the effect, and its line
@@ -35,7 +38,8 @@ struct FieldSource {
 ///  - add() adds value and gradient at a place and time, finite everywhere, 0 outside bounds();
 ///  - symmetric: the gradient is a symmetric matrix at every place;
 ///  - uniform(), where there is one: whether it is the same at every place;
-///  - potential(), where there is one: value is the negative gradient of it.
+///  - potential(), where there is one: value is the negative gradient of it;
+///  - add_all(), where there is one: as add(), at many places at once, with the same bits.
 template <class F>
 concept PlaceField = requires(const F& field, const typename F::Settings& settings, const Vector3d& x,
                               FieldValue& sum)
@@ -55,6 +59,51 @@ template <class F>
 concept HasPotential = PlaceField<F> && requires(const F& field, const Vector3d& x)
 {
     double(field.potential(x));
+};
+
+/// A field that is cheaper at many places at once: adds to *sums[i] what it is at places[i].
+template <class F>
+concept SumsMany = PlaceField<F> &&
+    requires(const F& field, std::span<const Vector3d> places, std::span<FieldValue* const> sums)
+{
+    field.add_all(places, 0.0, sums);
+};
+
+/// Asks one field at one place after the other: at many of them together where that is cheaper. Sums are
+/// complete once it is gone.
+template <PlaceField F>
+class Asking {
+public:
+    Asking(const F& field, double time) : field_(field), time_(time) {}
+    Asking(const Asking&) = delete;
+    Asking& operator=(const Asking&) = delete;
+    ~Asking() { flush(); }
+
+    void add(const Vector3d& x, FieldValue& sum)
+    {
+        if constexpr (!SumsMany<F>) {
+            field_.add(x, time_, sum);
+        } else {
+            places_[count_] = x;
+            sums_[count_++] = &sum;
+            if (count_ == places_.size())
+                flush();
+        }
+    }
+
+private:
+    void flush()
+    {
+        if constexpr (SumsMany<F>)
+            field_.add_all({places_.data(), count_}, time_, {sums_.data(), count_});
+        count_ = 0;
+    }
+
+    const F& field_;
+    double time_;
+    std::array<Vector3d, SumsMany<F> ? 64 : 0> places_;
+    std::array<FieldValue*, SumsMany<F> ? 64 : 0> sums_;
+    std::size_t count_ = 0;
 };
 
 /// All space.

@@ -195,13 +195,14 @@ private:
     {
         for (const Element<E>& element : elements) {
             std::uint64_t evaluated = 0;
+            Asking asking(element.field, time);
             for (std::size_t i = first; i < last; ++i) {
                 if (!wanted(i))
                     continue;
                 const Vector3d x = place(i);
                 if (!element.bounds.contains(x))
                     continue;
-                element.field.add(x, time, sums[i]);
+                asking.add(x, sums[i]);
                 ++evaluated;
             }
             tally.calls += evaluated > 0 ? 1 : 0;

@@ -51,6 +51,7 @@ public:
     bool acts() const { return settings_.amplitude != 0; }
     Box bounds() const { return unbounded(); }
     void add(const Vector3d& x, double time, FieldValue& sum) const;
+    void add_all(std::span<const Vector3d> places, double time, std::span<FieldValue* const> sums) const;
 
     /// velocity cos 2 pi (number . x + rate t + phase)
     struct Wave {
@@ -60,19 +61,16 @@ public:
     std::vector<Wave> waves() const; ///< that the field is the sum of
 
 private:
-    static constexpr std::size_t lanes = 2; ///< of the baseline processor's registers
     static constexpr std::size_t waves_of_octave = 12;
+    static constexpr std::size_t most_waves = max_octaves * waves_of_octave;
 
-    using Lanes [[gnu::vector_size(lanes * sizeof(double))]] = double;
-
-    /// Waves side by side: k [1 / length], velocity amplitude [length / time], w [1 / time], phase [turns].
-    struct Waves {
-        std::array<Lanes, 3> number{}, velocity{};
-        Lanes rate{}, phase{};
-    };
+    void add_some(std::span<const Vector3d> places, const simd::Waves& waves,
+                  std::span<FieldValue* const> sums) const;
 
     Settings settings_;
-    std::vector<Waves> waves_;
+    const simd::WaveKernels* kernels_;
+    std::array<std::vector<double>, 3> number_, velocity_; ///< by wave, as Wave
+    std::vector<double> rate_, phase_;
 };
 
 } // namespace slod
