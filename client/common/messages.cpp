@@ -82,6 +82,7 @@ void assign(EffectInfo& to, const wire::EffectStats& from)
           .acts_on_clusters = from.acts_on_clusters,
           .clusters = from.clusters,
           .particles = from.particles,
+          .straddling = from.straddling,
           .ms = from.ms};
 }
 

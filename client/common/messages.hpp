@@ -88,7 +88,7 @@ struct EffectInfo {
     std::uint64_t frame = 0;
     std::string state; ///< "active", "off", "powerless" or "absent"
     std::string acts_on_clusters;
-    std::uint64_t clusters = 0, particles = 0;
+    std::uint64_t clusters = 0, particles = 0, straddling = 0;
     double ms = 0;
 };
 

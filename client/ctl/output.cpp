@@ -172,6 +172,7 @@ Json json_of(const client::EffectInfo& effect)
             {"acts_on_clusters", effect.acts_on_clusters},
             {"clusters", effect.clusters},
             {"particles", effect.particles},
+            {"straddling", effect.straddling},
             {"ms", effect.ms}};
 }
 

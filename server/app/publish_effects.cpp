@@ -24,6 +24,7 @@ void PublishedEffects::update(const std::shared_ptr<const EffectReport>& report)
         message.frame = report->frame;
         message.clusters = entry.work.clusters;
         message.particles = entry.work.particles;
+        message.straddling = entry.work.straddling;
         message.ms = entry.work.ms;
         outlet_.send(writer_, message);
     }

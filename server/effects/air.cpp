@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "effects/straddling.hpp"
 
 namespace slod {
 namespace {
@@ -154,11 +155,16 @@ void Air::ask_winds(const ClusterTable& clusters, std::size_t first, std::size_t
         time, winds_at_.data());
 }
 
-void Air::ask(const ClusterTable& clusters, double start)
+void Air::ask(const ClusterStore& store, std::uint64_t frame)
 {
+    const ClusterTable& clusters = store.clusters;
+    const double ahead = 0.5 * step_, time = double(frame) * step_ + ahead;
+    const bool cut = winds_->has_boundary();
     winds_at_.resize(clusters.slot_count());
     for_each_block(clusters.slot_count(), block, [&](std::size_t first, std::size_t last) {
-        ask_winds(clusters, first, last, 0.5 * step_, start + 0.5 * step_);
+        ask_winds(clusters, first, last, ahead, time);
+        if (cut)
+            count_straddling(*winds_, store, frame, first, last);
     });
 }
 

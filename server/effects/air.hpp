@@ -40,8 +40,9 @@ public:
     /// For a flight of `duration` from `start` on.
     Felt felt(const Vector3d& position, const Vector3d& velocity, double start, double duration) const;
 
-    /// Asks for the winds that clusters feel through a frame from `start` on, each at the middle of its way.
-    void ask(const ClusterTable& clusters, double start);
+    /// Asks for the winds that clusters feel through the frame after `frame`, each at the middle of its way,
+    /// and counts those that a wind's boundary cuts as it begins.
+    void ask(const ClusterStore& store, std::uint64_t frame);
 
     /// What a cluster that was asked for feels through that frame: as felt(), from the frame's start on.
     Felt felt_by_cluster(const ClusterTable& clusters, std::size_t slot) const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "effects/straddling.hpp"
 
 namespace slod {
 namespace {
@@ -33,8 +34,10 @@ void FieldForces::reserve(std::size_t slots)
     values_.reserve(slots);
 }
 
-void FieldForces::evaluate(const ClusterTable& clusters, double time)
+void FieldForces::evaluate(const ClusterStore& store, std::uint64_t frame, double time)
 {
+    const ClusterTable& clusters = store.clusters;
+    const bool cut = fields_.has_boundary();
     values_.resize(clusters.slot_count());
     const auto alive = [&](std::size_t slot) { return clusters.alive(slot); };
     const auto place = [&](std::size_t slot) -> const Vector3d& { return clusters.position[slot]; };
@@ -42,6 +45,8 @@ void FieldForces::evaluate(const ClusterTable& clusters, double time)
         std::fill(values_.begin() + std::ptrdiff_t(first), values_.begin() + std::ptrdiff_t(last),
                   FieldValue{});
         fields_.add(first, last, alive, place, time, values_.data());
+        if (cut)
+            count_straddling(fields_, store, frame, first, last);
     });
 }
 

@@ -19,8 +19,8 @@ public:
     /// Of all fields together, at one place.
     FieldValue at(const Vector3d& x, double time) const { return fields_.at(x, time); }
 
-    /// Evaluates all fields for all clusters at `time`.
-    void evaluate(const ClusterTable& clusters, double time);
+    /// Evaluates all fields for all clusters at `time`, in frame `frame`.
+    void evaluate(const ClusterStore& store, std::uint64_t frame, double time);
 
     /// Adds what was evaluated to the table's accelerations and gradients. Without gravity it is all there
     /// is, and its size is the clusters' pull.

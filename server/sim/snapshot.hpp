@@ -84,7 +84,7 @@ inline constexpr std::array<EventCount, 32> event_counts{{
 }};
 
 /// Calls visit(name, count) for all of them; of each effect of place, by its name, for the clusters that it
-/// was evaluated for.
+/// was evaluated for, and by straddling_name() for those that its boundary cut.
 template <class Visitor>
 void for_each_event(const FrameCounts& counts, Visitor&& visit)
 {
@@ -92,7 +92,10 @@ void for_each_event(const FrameCounts& counts, Visitor&& visit)
         visit(event.name, counts.*event.count);
     std::size_t row = 0;
     for_each_field_table(FieldSettings{}, [&]<class F>(const typename F::Table&) {
-        visit(F::name, counts.fields[row++].clusters);
+        visit(F::name, counts.fields[row].clusters);
+        if constexpr (HasBoundary<F>)
+            visit(straddling_name<F>(), counts.fields[row].straddling);
+        ++row;
     });
 }
 
@@ -109,6 +112,9 @@ inline void add_events(FrameCounts& sum, const FrameCounts& frame)
 struct EffectWork {
     std::uint64_t clusters = 0;  ///< acted on, once for each element of its table
     std::uint64_t particles = 0; ///< acted on one by one
+    /// Clusters that the boundary of an effect of place cuts, once for each element of its table: all members
+    /// follow it as it is at the centre.
+    std::uint64_t straddling = 0;
     /// Wall time, of all threads together where an effect of place is meant. What several do in one pass,
     /// speed_limit and brownian, counts for each; what is propagated exactly, for none.
     double ms = 0;

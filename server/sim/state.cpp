@@ -149,7 +149,7 @@ void Simulation::State::propagate()
     if (air && !plan.local_air)
         turn_wind();
     if (plan.local_air)
-        air->ask(store.clusters, double(frame - 1) * settings.time.step);
+        air->ask(store, frame - 1);
     if (collisions)
         timed(work_of("collider").ms, [&] { collisions->fly_members(context()); });
     bool sound;
@@ -241,7 +241,7 @@ void Simulation::State::evaluate_forces()
 {
     if (!field_forces)
         return evaluate_gravity();
-    const auto evaluate_fields = [&] { field_forces->evaluate(store.clusters, time()); };
+    const auto evaluate_fields = [&] { field_forces->evaluate(store, frame, time()); };
     if (settings.gravity)
         run_both([&] { evaluate_gravity(); }, evaluate_fields);
     else

@@ -107,6 +107,7 @@ struct Simulation::State {
             snapshot.counts.fields[first + i] += counts[i];
             EffectWork& work = snapshot.effects[first_field_effect + first + i];
             work.clusters = counts[i].clusters;
+            work.straddling = counts[i].straddling;
             work.ms += double(times_ns[i]) * 1e-6;
         }
     }

@@ -60,6 +60,28 @@ TEST_F(Effects, AreListedWithTheirWork)
     EXPECT_EQ(states["vortex"], "absent");
 }
 
+// A face of the box goes through the middle of the galaxy, where there is always a cluster.
+TEST_F(Effects, AreListedWithTheClustersThatTheirBoundaryCuts)
+{
+    Child running(server({"--set", "control.mode=off", "--set", "background.max_cluster_size=32", "--set",
+                          "linear_drag.rate=1e-9", "--set",
+                          "wind=[{centre=[0,0,1e3], half_extent=[1e3,1e3,1e3], edge=1e-3}]"}));
+    client::Connection connection = connect({.effects = true});
+    ASSERT_TRUE(is(connection, "wind", "active")) << running.errors();
+    Child list(slodctl({"effect", "list", "--json"}));
+    ASSERT_EQ(list.wait(), 0) << running.errors();
+    std::istringstream lines(list.output());
+    std::map<std::string, std::uint64_t> straddling;
+    for (std::string line; std::getline(lines, line);) {
+        const auto effect = nlohmann::json::parse(line);
+        straddling[effect.at("effect")] = effect.at("straddling");
+    }
+    EXPECT_GT(straddling.at("wind"), 0U);
+    EXPECT_EQ(straddling.at("gravity"), 0U);
+    ASSERT_EQ(control({"stats"}), 0);
+    EXPECT_GT(answer.at("counts").at("wind_straddling"), 0) << answer;
+}
+
 TEST_F(Effects, ThatTheSceneHasNotAreNotSwitched)
 {
     Child running(server());

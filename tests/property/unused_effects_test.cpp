@@ -94,7 +94,9 @@ TEST_P(UnusedEffects, E01_CountNothingInAThousandFrames)
         const Snapshot& now = simulation.step({});
         for (std::size_t row = 0; row < effect_count; ++row)
             if (!plan.effects[row].active) {
-                ASSERT_EQ(now.effects[row].clusters + now.effects[row].particles, 0U) << effect_names[row];
+                ASSERT_EQ(
+                    now.effects[row].clusters + now.effects[row].particles + now.effects[row].straddling, 0U)
+                    << effect_names[row];
             }
         for (std::size_t row = 0; row < now.counts.fields.size(); ++row)
             if (!plan.effects[first_field_effect + row].active) {

@@ -44,6 +44,7 @@ SmallScene everything(Motion motion)
     settings.limits.max_particles = 900;
     settings.quadratic_drag = QuadraticDragSettings{0.3};
     AllFields::for_each([&]<class F> { add_element(settings.fields.of<F>(), typename F::Settings{}); });
+    settings.fields.of<Attractor>().push_back({.strength = 0.1, .radius = 0.5});
     settings.speed_limit = SpeedLimitSettings{6};
     settings.brownian = BrownianSettings{0.1};
     settings.colliders = small_scene("meshes").settings.colliders;

@@ -104,7 +104,9 @@ TEST(Report, HasThePromisedKeys)
     EXPECT_EQ(json["killed"]["momentum"], nlohmann::json({0.0, 3.0, 0.0}));
     EXPECT_EQ(json["scene"], "a scene");
     EXPECT_EQ(json["state_hash"], "0000000000000abc");
-    EXPECT_EQ(json["counts"].size(), event_counts.size() + FieldCounts{}.size());
+    std::size_t fields = 0;
+    AllFields::for_each([&]<class F> { fields += HasBoundary<F> ? 2 : 1; });
+    EXPECT_EQ(json["counts"].size(), event_counts.size() + fields);
 }
 
 // A file's name is any bytes; this one's is no UTF-8.
@@ -120,6 +122,30 @@ TEST(Report, WhatIsNoTextIsReplaced)
                           .isa = "v3",
                           .threads = 2};
     EXPECT_EQ(nlohmann::json::parse(report(run))["initial"], "bad\xef\xbf\xbd.gadget2");
+}
+
+TEST(Report, HasTheClustersThatABoundaryCutOfEachEffectThatMayHaveOne)
+{
+    Snapshot one = snapshot(1, 1);
+    std::uint64_t row = 0;
+    for (FieldCount& count : one.counts.fields)
+        count = {.calls = 1, .clusters = 100 + row, .straddling = 10 + row++};
+    RunSummary summary;
+    summary.add(one, 2);
+    summary.add(one, 2);
+    const nlohmann::json counts = reported({}, summary)["counts"];
+    row = 0;
+    AllFields::for_each([&]<class F> {
+        EXPECT_EQ(counts[std::string(F::name)], 2 * (100 + row));
+        const std::string name = std::string(F::name) + "_straddling";
+        EXPECT_EQ(counts.contains(name), HasBoundary<F>) << name;
+        if (HasBoundary<F>) {
+            EXPECT_EQ(counts[name], 2 * (10 + row)) << name;
+        }
+        ++row;
+    });
+    for (const char* bounded : {"attractor", "buoyancy", "wind"})
+        EXPECT_TRUE(counts.contains(std::string(bounded) + "_straddling")) << bounded;
 }
 
 TEST(Report, APhaseThatIsNotPlannedIsAbsent)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "effects/fields/field.hpp"
 
 namespace slod {
@@ -23,8 +25,10 @@ void for_each_field(AttractorSettings& attractor, Visitor&& visit)
           attractor.strength);
     visit(Field{"softening", "length", "Plummer softening length; more than 0.", 0, 1e30},
           attractor.softening);
-    visit(Field{"radius", "length", "Its pull fades towards this distance, and is none beyond.", 0,
-                no_maximum, true},
+    visit(Field{"radius", "length",
+                "Its pull fades towards this distance, and is none beyond; clusters that reach across are "
+                "counted.",
+                0, no_maximum, true},
           attractor.radius);
 }
 
@@ -46,6 +50,12 @@ public:
     Box bounds() const;
     void add(const Vector3d& x, double time, FieldValue& sum) const;
     double potential(const Vector3d& x) const;
+
+    /// From the sphere where the pull ends.
+    double clearance(const Vector3d& x) const
+    {
+        return std::abs((x - settings_.position).norm() - settings_.radius);
+    }
 
 private:
     Settings settings_;

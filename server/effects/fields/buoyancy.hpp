@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "effects/fields/field.hpp"
 
 namespace slod {
@@ -22,8 +24,10 @@ void for_each_field(BuoyancySettings& buoyancy, Visitor&& visit)
     visit(Field{"lift", "length/time^2", "Acceleration of what is under water, besides gravity's.", -1e30,
                 1e30},
           buoyancy.lift);
-    visit(Field{"transition", "length", "Depth over which the lift sets in, half of it above the level.", 0,
-                1e30},
+    visit(Field{"transition", "length",
+                "Depth over which the lift sets in, half of it above the level; clusters that reach across "
+                "an end of it are counted.",
+                0, 1e30},
           buoyancy.transition);
 }
 
@@ -63,6 +67,12 @@ public:
     double potential(const Vector3d& x) const
     {
         return settings_.lift * settings_.transition * SmoothStep(depth(x)).integral;
+    }
+
+    /// From the planes where the lift begins and from which on it is whole.
+    double clearance(const Vector3d& x) const
+    {
+        return settings_.transition * std::abs(std::abs(depth(x) - 0.5) - 0.5);
     }
 
 private:

@@ -38,6 +38,9 @@ struct FieldSource {
 ///  - add() adds value and gradient at a place and time, finite everywhere, 0 outside bounds();
 ///  - symmetric: the gradient is a symmetric matrix at every place;
 ///  - uniform(), where there is one: whether it is the same at every place;
+///  - clearance(), where there is one: how far a place is from the field's boundary, the nearest surface
+///    where it sets in or from which on it is whole; infinite everywhere for an element without. The formula
+///    is another beyond, so a cluster that the surface cuts follows that of its centre with all its members;
 ///  - potential(), where there is one: value is the negative gradient of it;
 ///  - add_all(), where there is one: as add(), at many places at once, with the same bits.
 template <class F>
@@ -59,6 +62,12 @@ template <class F>
 concept HasPotential = PlaceField<F> && requires(const F& field, const Vector3d& x)
 {
     double(field.potential(x));
+};
+
+template <class F>
+concept HasBoundary = PlaceField<F> && requires(const F& field, const Vector3d& x)
+{
+    double(field.clearance(x));
 };
 
 /// A field that is cheaper at many places at once: adds to *sums[i] what it is at places[i].

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -17,11 +19,14 @@ namespace slod {
 struct FieldCount {
     std::uint64_t calls = 0;    ///< for a block of clusters
     std::uint64_t clusters = 0; ///< that it was evaluated for, once for each element of its table
+    /// Clusters, whether it was evaluated for them or not, that an element's boundary cuts; likewise.
+    std::uint64_t straddling = 0;
 
     FieldCount& operator+=(const FieldCount& other)
     {
         calls += other.calls;
         clusters += other.clusters;
+        straddling += other.straddling;
         return *this;
     }
     friend bool operator==(const FieldCount&, const FieldCount&) = default;
@@ -81,6 +86,22 @@ public:
         return (of(all<F>()) && ...);
     }
 
+    /// How far the nearest boundary of any of them is from a place; infinite where none has one.
+    double clearance(const Vector3d& x) const
+    {
+        double least = std::numeric_limits<double>::infinity();
+        const auto look = [&]<class E>(const std::vector<Element<E>>& elements) {
+            if constexpr (HasBoundary<E>)
+                for (const Element<E>& element : elements)
+                    least = std::min(least, element.field.clearance(x));
+        };
+        (look(all<F>()), ...);
+        return least;
+    }
+
+    /// Whether one of them has a boundary, which clusters may straddle.
+    bool has_boundary() const { return std::isfinite(clearance({0, 0, 0})); }
+
     FieldValue at(const Vector3d& x, double time) const
     {
         FieldValue sum;
@@ -139,12 +160,28 @@ public:
         (count(all<F>()), ...);
     }
 
-    /// What add() and count_for_all() did since the last call of this.
+    /// Counts a cluster at `x`, none of whose members is farther from there than `reach`, for each element
+    /// whose boundary is nearer. Any thread may call it.
+    void count_straddling(const Vector3d& x, double reach)
+    {
+        std::size_t row = 0;
+        const auto count = [&]<class E>(const std::vector<Element<E>>& elements) {
+            Tally& tally = tallies_[row++];
+            if constexpr (HasBoundary<E>)
+                for (const Element<E>& element : elements)
+                    if (element.field.clearance(x) < reach)
+                        ++tally.straddling;
+        };
+        (count(all<F>()), ...);
+    }
+
+    /// What add(), count_for_all() and count_straddling() did since the last call of this.
     Counts take_counts()
     {
         Counts counts;
         for (std::size_t row = 0; row < List::size; ++row)
-            counts[row] = {tallies_[row].calls.exchange(0), tallies_[row].clusters.exchange(0)};
+            counts[row] = {tallies_[row].calls.exchange(0), tallies_[row].clusters.exchange(0),
+                           tallies_[row].straddling.exchange(0)};
         return counts;
     }
 
@@ -166,7 +203,7 @@ private:
 
     /// Sums of whole numbers, which come out the same in any order.
     struct Tally {
-        std::atomic<std::uint64_t> calls{0}, clusters{0};
+        std::atomic<std::uint64_t> calls{0}, clusters{0}, straddling{0};
         std::atomic<std::int64_t> ns{0};
     };
 

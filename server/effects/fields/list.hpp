@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
@@ -69,6 +72,21 @@ struct FieldSettings {
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
+
+/// What the clusters that the boundary of an effect cuts are counted as: "wind_straddling".
+template <HasBoundary F>
+inline constexpr auto straddling_letters = [] {
+    constexpr std::string_view ending = "_straddling";
+    std::array<char, F::name.size() + ending.size()> joined{};
+    std::copy(ending.begin(), ending.end(), std::copy(F::name.begin(), F::name.end(), joined.begin()));
+    return joined;
+}();
+
+template <HasBoundary F>
+constexpr std::string_view straddling_name()
+{
+    return {straddling_letters<F>.data(), straddling_letters<F>.size()};
+}
 
 /// The key of the i-th element of an effect's table: "attractor.0", or that of its only one.
 template <PlaceField F>

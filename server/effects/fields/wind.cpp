@@ -47,4 +47,12 @@ void Wind::add(const Vector3d& x, double time, FieldValue& sum) const
     sum.gradient += velocity * of_share.transpose();
 }
 
+double Wind::clearance(const Vector3d& x) const
+{
+    const Eigen::Array3d half = settings_.half_extent, within = half - (x - settings_.centre).array().abs();
+    if ((within < 0).any())
+        return within.min(0).matrix().norm();
+    return within.min((within - settings_.edge).abs()).minCoeff();
+}
+
 } // namespace slod

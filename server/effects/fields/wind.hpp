@@ -26,8 +26,9 @@ void for_each_field(WindSettings& wind, Visitor&& visit)
                 no_maximum, true},
           wind.half_extent);
     visit(Field{"edge", "length",
-                "Depth within each face over which the wind sets in; the least half_extent at most.", 0,
-                1e30},
+                "Depth within each face over which the wind sets in, the least half_extent at most; clusters "
+                "that reach across an end of it are counted.",
+                0, 1e30},
           wind.edge);
     visit(
         Field{"gust_amplitude", "", "Gusts add this share of the velocity, and take it, as a sine.", 0, 1e30},
@@ -56,6 +57,9 @@ public:
         return {settings_.centre - settings_.half_extent, settings_.centre + settings_.half_extent};
     }
     void add(const Vector3d& x, double time, FieldValue& sum) const;
+
+    /// From the faces of the box, and from the planes within it from which on the wind is whole.
+    double clearance(const Vector3d& x) const;
 
     /// Whether it is the same at every place.
     bool uniform() const { return settings_.half_extent.array().isInf().all(); }
