@@ -15,18 +15,19 @@ namespace slod {
 /// What a collider looks like: a convex solid, or a sheet, whose triangles are such when they are given a
 /// thickness. Particles are outside of them.
 enum class ColliderShape : std::uint8_t {
-    Plane,       ///< all that is below a plane
-    Sphere,      ///< a ball
-    Box,         ///< sides along the axes, before it is turned
-    Cone,        ///< upright on a base that closes it
-    Capsule,     ///< all within a radius of a line
-    Mesh,        ///< a sheet of a file's triangles
-    Heightfield, ///< a sheet of a file's heights over a grid
+    Plane,        ///< all that is below a plane
+    Sphere,       ///< a ball
+    Box,          ///< sides along the axes, before it is turned
+    Cone,         ///< upright on a base that closes it
+    Capsule,      ///< all within a radius of a line
+    Mesh,         ///< a sheet of a file's triangles
+    Heightfield,  ///< a sheet of a file's heights over a grid
+    DistanceGrid, ///< a sheet where a file's distances over a grid are 0
 };
 
-constexpr std::array<std::string_view, 7> names(ColliderShape)
+constexpr std::array<std::string_view, 8> names(ColliderShape)
 {
-    return {"plane", "sphere", "box", "cone", "capsule", "mesh", "heightfield"};
+    return {"plane", "sphere", "box", "cone", "capsule", "mesh", "heightfield", "distance_grid"};
 }
 
 /// What becomes of a particle that meets a collider.
@@ -53,11 +54,11 @@ struct ColliderSettings {
     double radius = 1;             ///< of a sphere, a capsule, the base of a cone, scene length
     Vector3d half_extent{1, 1, 1}; ///< of a box, scene length
     Vector3d axis{0, 0, -1};       ///< of a cone or a capsule, with its length, scene length
-    Vector3d rotation{0, 0, 0};    ///< of a box, a mesh or a heightfield: deg about x, then y, then z
-    std::string file{};            ///< of a mesh or a heightfield, in the scene's folder
-    double scale = 1;              ///< of a mesh, or a heightfield's heights, scene length
+    Vector3d rotation{0, 0, 0};    ///< of a box or a sheet: deg about x, then y, then z
+    std::string file{};            ///< of a sheet, from the scene's folder
+    double scale = 1;              ///< of a sheet, or a heightfield's heights, scene length
     double spacing = 1;            ///< of a heightfield's grid, scene length
-    double thickness = 1e-3;       ///< of a mesh or a heightfield, scene length
+    double thickness = 1e-3;       ///< of a sheet, scene length
     Vector3d velocity{0, 0, 0};    ///< scene length / time
     OnHit on_hit = OnHit::Bounce;
     double restitution = 0.5;           ///< speed along the normal after an impact, as a share of that before
@@ -89,20 +90,21 @@ void for_each_field(ColliderSettings& collider, Visitor&& visit)
               -1e30, 1e30},
         collider.axis);
     visit(Field{"rotation", "deg",
-                "Of a box, a mesh or a heightfield, about its position: first about x, then y, then z.", -360,
-                360},
+                "Of a box or of what comes from a file, about its position: first about x, then y, then z.",
+                -360, 360},
           collider.rotation);
     visit(
         Field{
             "file", "",
-            "Of a mesh (Wavefront OBJ, faces of at most 64 vertices, 256 triangles at each) or a heightfield "
-            "(rows of heights, along x), from the scene's folder."},
+            "Of a mesh (Wavefront OBJ, faces of at most 64 vertices, 256 triangles at each), a heightfield "
+            "(rows of heights, along x) or a distance_grid (SDFGen's text, below 0 inside, solid where it is "
+            "0), from the scene's folder."},
         collider.file);
     visit(Field{"scale", "length", "What 1 is in the file; of a heightfield, in its heights.", 0, 1e30},
           collider.scale);
     visit(Field{"spacing", "length", "Of a heightfield's grid, from row to row and in a row.", 0, 1e30},
           collider.spacing);
-    visit(Field{"thickness", "length", "Of a mesh or a heightfield, half of it on each side.", 0, 1e30},
+    visit(Field{"thickness", "length", "Of what comes from a file, half of it on each side.", 0, 1e30},
           collider.thickness);
     visit(Field{"velocity", "length/time",
                 "Of uniform motion from its position at time 0, whenever it is set.", -1e30, 1e30},

@@ -66,6 +66,13 @@ Problems sheet_problems(const ColliderSettings& settings)
     return found;
 }
 
+constexpr SolidKind of_one_scale{.problems = sheet_problems,
+                                 .make = nullptr,
+                                 .rotation = true,
+                                 .file = true,
+                                 .scale = true,
+                                 .thickness = true};
+
 } // namespace
 
 std::unique_ptr<Sheet> make_sheet(const ColliderSettings& settings)
@@ -76,12 +83,7 @@ std::unique_ptr<Sheet> make_sheet(const ColliderSettings& settings)
     return std::make_unique<Sheet>(mesh, settings.thickness);
 }
 
-const SolidKind mesh_kind{.problems = sheet_problems,
-                          .make = nullptr,
-                          .rotation = true,
-                          .file = true,
-                          .scale = true,
-                          .thickness = true};
+const SolidKind mesh_kind = of_one_scale, distance_grid_kind = of_one_scale;
 const SolidKind heightfield_kind{.problems = sheet_problems,
                                  .make = nullptr,
                                  .rotation = true,

@@ -12,8 +12,8 @@ namespace slod {
 namespace {
 
 /// In the order of ColliderShape.
-constexpr std::array kinds{&plane_kind,   &sphere_kind, &box_kind,        &cone_kind,
-                           &capsule_kind, &mesh_kind,   &heightfield_kind};
+constexpr std::array kinds{&plane_kind,   &sphere_kind, &box_kind,         &cone_kind,
+                           &capsule_kind, &mesh_kind,   &heightfield_kind, &distance_grid_kind};
 static_assert(kinds.size() == names(ColliderShape{}).size());
 
 } // namespace

@@ -55,7 +55,7 @@ struct SolidKind {
 };
 
 extern const SolidKind plane_kind, sphere_kind, box_kind, cone_kind, capsule_kind, mesh_kind,
-    heightfield_kind;
+    heightfield_kind, distance_grid_kind;
 
 /// What is wrong with a collider's geometry, keys of other shapes among it, each with the key in front; empty
 /// when nothing is.

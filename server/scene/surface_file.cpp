@@ -128,27 +128,16 @@ Mesh height_mesh(TextLines& lines)
     return mesh;
 }
 
-template <class Read>
-std::variant<Mesh, Problems> read(const std::filesystem::path& file, const Read& mesh_of)
-{
-    try {
-        TextLines lines(file, max_surface_file_bytes);
-        return mesh_of(lines);
-    } catch (const UnusableText& failure) {
-        return Problems{failure.what()};
-    }
-}
-
 } // namespace
 
 std::variant<Mesh, Problems> read_obj(const std::filesystem::path& file)
 {
-    return read(file, obj_mesh);
+    return read_text(file, max_surface_file_bytes, obj_mesh);
 }
 
 std::variant<Mesh, Problems> read_heights(const std::filesystem::path& file)
 {
-    return read(file, height_mesh);
+    return read_text(file, max_surface_file_bytes, height_mesh);
 }
 
 } // namespace slod

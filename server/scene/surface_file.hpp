@@ -23,4 +23,11 @@ std::variant<Mesh, Problems> read_obj(const std::filesystem::path& file);
 /// z; each square is divided along the diagonal from its vertex (0, 0) to (1, 1). Refuses likewise.
 std::variant<Mesh, Problems> read_heights(const std::filesystem::path& file);
 
+/// Reads distances to a surface over a regular grid, as SDFGen writes them (Batty,
+/// github.com/christopherbatty/SDFGen): a line "nx ny nz" of the numbers of samples, at least 2 each, one "x
+/// y z" of the place of the first sample, whose coordinates are the lowest, one of the spacing, and then as
+/// many distances in any lines, x fastest, then y, then z, below 0 inside. What follows a # is passed over.
+/// The mesh is the zero level. Refuses likewise, and where no distance is below 0 or none is not.
+std::variant<Mesh, Problems> read_distance_grid(const std::filesystem::path& file);
+
 } // namespace slod

@@ -8,8 +8,8 @@
 
 namespace slod {
 
-/// Reads the files of meshes and heightfields, whose names start from `folder` unless they are absolute. What
-/// is wrong comes with the key, "collider.0.file", in front.
+/// Reads the files of colliders that are sheets, whose names start from `folder` unless they are absolute.
+/// What is wrong comes with the key, "collider.0.file", in front.
 Problems load_surfaces(std::vector<ColliderSettings>& colliders, const std::filesystem::path& folder);
 
 } // namespace slod

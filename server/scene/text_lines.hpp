@@ -9,7 +9,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
+
+#include "core/settings.hpp"
 
 namespace slod {
 
@@ -48,6 +52,19 @@ private:
     std::vector<std::string_view> words_;
     std::uint64_t line_number_ = 0;
 };
+
+/// What `make` makes of a file's lines, or why it cannot be used.
+template <class Make>
+std::variant<std::invoke_result_t<Make, TextLines&>, Problems>
+read_text(const std::filesystem::path& file, std::uintmax_t max_bytes, const Make& make)
+{
+    try {
+        TextLines lines(file, max_bytes);
+        return make(lines);
+    } catch (const UnusableText& failure) {
+        return Problems{failure.what()};
+    }
+}
 
 /// A word as an integer; none where it is not one.
 inline std::optional<std::int64_t> integer(std::string_view word)

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "effects/collider_settings.hpp"
+#include "effects/zero_level.hpp"
 
 namespace slod::test {
 
@@ -15,6 +17,14 @@ inline ColliderSettings sheet(Mesh mesh, double thickness = 1e-3)
 {
     ColliderSettings settings{.name = "sheet", .shape = ColliderShape::Mesh, .thickness = thickness};
     settings.mesh = std::make_shared<const Mesh>(std::move(mesh));
+    return settings;
+}
+
+/// Likewise where the distances are 0.
+inline ColliderSettings sheet(const DistanceGrid& grid, double thickness = 1e-3)
+{
+    ColliderSettings settings = sheet(zero_level(grid).value(), thickness);
+    settings.shape = ColliderShape::DistanceGrid;
     return settings;
 }
 
@@ -63,6 +73,36 @@ inline std::optional<double> hilly_height(const Vector3d& x)
     const double corner = hill(column, row), far = hill(column + 1, row + 1);
     const double side = along > up ? hill(column + 1, row) : hill(column, row + 1);
     return corner + std::max(along, up) * (side - corner) + std::min(along, up) * (far - side);
+}
+
+/// What `distance` is at so many points from `origin` on.
+template <class Distance>
+DistanceGrid sampled(const std::array<std::size_t, 3>& size, const Vector3d& origin, double spacing,
+                     const Distance& distance)
+{
+    DistanceGrid grid{size, origin, spacing};
+    for (std::size_t z = 0; z < size[2]; ++z)
+        for (std::size_t y = 0; y < size[1]; ++y)
+            for (std::size_t x = 0; x < size[0]; ++x)
+                grid.distances.push_back(
+                    distance(origin + spacing * Vector3d(double(x), double(y), double(z))));
+    return grid;
+}
+
+/// Distances to a ball about the origin, at least one spacing further out than it reaches.
+inline DistanceGrid ball_grid(double radius, double spacing)
+{
+    const auto half = std::size_t(radius / spacing) + 2;
+    return sampled({2 * half + 1, 2 * half + 1, 2 * half + 1}, Vector3d::Constant(-spacing * double(half)),
+                   spacing, [&](const Vector3d& x) { return x.norm() - radius; });
+}
+
+/// The hilly mesh's heights above the ground, in a grid whose tetrahedra have the mesh's diagonals below
+/// them: it is where they are 0.
+inline DistanceGrid hilly_grid()
+{
+    return sampled({9, 9, 3}, {0, 0, -0.5}, 0.5,
+                   [](const Vector3d& x) { return x.z() - hill(int(2 * x.x()), int(2 * x.y())); });
 }
 
 /// The twelve triangles of a box about the origin.

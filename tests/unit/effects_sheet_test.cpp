@@ -201,9 +201,13 @@ TEST(Sheet, IsWhereItsSettingsSay)
         EXPECT_LE((box.lower - lower).norm() + (box.upper - upper).norm(), 1e-13);
     };
     const Vector3d half = Vector3d::Constant(0.5e-3);
-    box_is(Vector3d(10, 20, 30) - half, Vector3d(14, 22, 36) + half);
-    settings.rotation = {0, 0, 90};
-    box_is(Vector3d(8, 20, 30) - half, Vector3d(10, 24, 36) + half);
+    for (const ColliderShape shape : {ColliderShape::Mesh, ColliderShape::DistanceGrid}) {
+        settings.shape = shape;
+        settings.rotation = {0, 0, 0};
+        box_is(Vector3d(10, 20, 30) - half, Vector3d(14, 22, 36) + half);
+        settings.rotation = {0, 0, 90};
+        box_is(Vector3d(8, 20, 30) - half, Vector3d(10, 24, 36) + half);
+    }
     settings.shape = ColliderShape::Heightfield;
     settings.spacing = 0.5;
     settings.rotation = {0, 0, 0};

@@ -109,9 +109,17 @@ TEST(SimulationSettings, RefuseKeysThatACollidersShapeDoesNotHave)
         says({.name = "solid", .shape = Mesh, .file = "bowl.obj", .spacing = 2}, "spacing is no key"));
     EXPECT_TRUE(
         says({.name = "solid", .shape = Heightfield, .radius = 2, .file = "hills.txt"}, "radius is no key"));
+    EXPECT_TRUE(says({.name = "solid", .shape = DistanceGrid, .file = "ball.sdf", .spacing = 2},
+                     "spacing is no key of shape = \"distance_grid\""));
     SimulationSettings settings = sound();
     settings.colliders = {{.name = "post", .shape = Capsule, .radius = 2, .axis = {0, 0, 3}},
-                          {.name = "bowl", .shape = Mesh, .file = "bowl.obj", .scale = 2, .thickness = 0.1}};
+                          {.name = "bowl", .shape = Mesh, .file = "bowl.obj", .scale = 2, .thickness = 0.1},
+                          {.name = "ball",
+                           .shape = DistanceGrid,
+                           .rotation = {0, 0, 45},
+                           .file = "ball.sdf",
+                           .scale = 2,
+                           .thickness = 0.1}};
     EXPECT_EQ(problems(settings), Problems{});
 }
 

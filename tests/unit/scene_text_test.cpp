@@ -122,7 +122,7 @@ void mend(ColliderSettings& collider)
 {
     using enum ColliderShape;
     const ColliderSettings defaults;
-    if (collider.shape == Mesh || collider.shape == Heightfield)
+    if (collider.shape == Mesh || collider.shape == Heightfield || collider.shape == DistanceGrid)
         collider.shape = Plane;
     const bool has_axis = collider.shape == Cone || collider.shape == Capsule;
     const bool round = has_axis || collider.shape == Sphere;
