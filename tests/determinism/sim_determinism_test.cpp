@@ -118,6 +118,7 @@ const std::map<std::string, std::uint64_t> pinned{
     {"rigid_obstacles", 0xabbe5b50d2adaa32},
     {"attracted_obstacles", 0xd0d4353dc83e7491},
     {"meshes", 0xf05bc6db18021e15},
+    {"distance_grids", 0x7bf98fd61c4e23c2},
     {"fields", 0x7a865500d457a337},
     {"attracted_fields", 0xcd3839256e091ccb},
     {"winds", 0xf76d0b9ebb542542},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -93,6 +94,18 @@ TEST_P(ClosedRoom, F10_OfTrianglesLosesNobodyAndLetsNobodyOut)
         const double reach = x.cwiseAbs().maxCoeff();
         return reach <= half_side && reach >= 0.4;
     });
+}
+
+// A ball that is hollow, of which what is around it and a ball in its middle are solid by one grid. What is
+// linear between samples is above the distance from the middle, which is convex, by at most 3/8 of the
+// spacing squared over the least distance of a cell there, 0.4 - 0.18: 0.02.
+TEST_P(ClosedRoom, F10_OfAGridOfDistancesLosesNobodyAndLetsNobodyOut)
+{
+    SimulationSettings scene = settings();
+    const auto distance = [](const Vector3d& x) { return std::min(2 - x.norm(), x.norm() - 0.4); };
+    scene.colliders = {with(sheet(sampled({43, 43, 43}, {-2.13, -2.12, -2.11}, 0.101, distance)), 0.9, 0.1)};
+    expect_all_stay(
+        scene, [](const Vector3d& x, double half_side) { return x.norm() <= half_side && x.norm() >= 0.38; });
 }
 
 TEST_P(ClosedRoom, CountsBirthsAndDeathsExactly)

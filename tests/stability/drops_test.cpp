@@ -10,20 +10,22 @@
 #include "support/one_cluster.hpp"
 #include "support/solids.hpp"
 
-// Rain on hills of triangles, as a mesh and as a field of heights.
+// Rain on hills of triangles, as a mesh, as a field of heights and as a grid of distances.
 namespace slod::test {
 namespace {
 
 ColliderSettings hills(ColliderShape shape)
 {
     ColliderSettings settings = with(sheet(hilly_mesh()), 0.3, 0.2);
-    settings.name = "hills";
     if (shape == ColliderShape::Heightfield) {
         settings =
             with(sheet(grid_mesh(9, 9, 1, [](auto x, auto y) { return hill(int(x), int(y)); })), 0.3, 0.2);
         settings.shape = shape;
         settings.spacing = 0.5;
+    } else if (shape == ColliderShape::DistanceGrid) {
+        settings = with(sheet(hilly_grid()), 0.3, 0.2);
     }
+    settings.name = "hills";
     return settings;
 }
 
@@ -54,7 +56,7 @@ class Rain : public testing::TestWithParam<ColliderShape> {};
 TEST_P(Rain, F22_ADropNeverLeaks)
 {
     const Colliders colliders({hills(GetParam())}, falling(), frame);
-    constexpr std::uint64_t drops = 500'000; // of a million for both
+    constexpr std::uint64_t drops = 500'000;
     std::uint64_t leaks = 0, struck = 0;
     for (std::uint64_t i = 0; i < drops; ++i) {
         Random random(22, 0, i);
@@ -103,7 +105,9 @@ std::string shape_of(const testing::TestParamInfo<ColliderShape>& info)
     return std::string(names(info.param)[std::size_t(info.param)]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hills, Rain, testing::Values(ColliderShape::Mesh, ColliderShape::Heightfield),
+INSTANTIATE_TEST_SUITE_P(Hills, Rain,
+                         testing::Values(ColliderShape::Mesh, ColliderShape::Heightfield,
+                                         ColliderShape::DistanceGrid),
                          shape_of);
 
 } // namespace

@@ -133,6 +133,20 @@ SmallScene meshes()
     return scene;
 }
 
+/// A fountain against a hollow ball and onto hills, both from grids of distances.
+SmallScene distance_grids()
+{
+    SmallScene scene = fountain("distance_grids", Motion::Flow);
+    scene.settings.background.max_breadth = 1;
+    ColliderSettings hills = with(sheet(hilly_grid()), 0.3, 0.5);
+    hills.position = {-2, -2, -0.5};
+    ColliderSettings pebble = with(turned(sheet(ball_grid(0.2, 0.05)), {20, 30, 40}), 0.8, 0.1);
+    pebble.position = {0.1, 0, 0.7};
+    scene.settings.colliders = {hills, pebble};
+    add_cloud(scene.initial, {.count = 200, .mass = 1e-3, .scale = 0.02}, 3);
+    return scene;
+}
+
 /// Two clouds that attract each other across a ball between them, a cone and a rod.
 SmallScene attracted_obstacles()
 {
@@ -333,6 +347,7 @@ std::vector<SmallScene> small_scenes()
     scenes.push_back(obstacles("rigid_obstacles", Motion::Rigid));
     scenes.push_back(attracted_obstacles());
     scenes.push_back(meshes());
+    scenes.push_back(distance_grids());
     scenes.push_back(fields());
     scenes.push_back(attracted_fields());
     scenes.push_back(winds("winds"));
