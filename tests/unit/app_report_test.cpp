@@ -136,11 +136,11 @@ TEST(Report, HasTheClustersThatABoundaryCutOfEachEffectThatMayHaveOne)
     const nlohmann::json counts = reported({}, summary)["counts"];
     row = 0;
     AllFields::for_each([&]<class F> {
-        EXPECT_EQ(counts[std::string(F::name)], 2 * (100 + row));
+        EXPECT_EQ(counts.at(std::string(F::name)), 2 * (100 + row));
         const std::string name = std::string(F::name) + "_straddling";
         EXPECT_EQ(counts.contains(name), HasBoundary<F>) << name;
         if (HasBoundary<F>) {
-            EXPECT_EQ(counts[name], 2 * (10 + row)) << name;
+            EXPECT_EQ(counts.value(name, 0U), 2 * (10 + row)) << name;
         }
         ++row;
     });

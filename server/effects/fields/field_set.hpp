@@ -11,26 +11,10 @@
 #include <vector>
 
 #include "core/tick.hpp"
+#include "effects/fields/field_count.hpp"
 #include "effects/fields/list.hpp"
 
 namespace slod {
-
-/// What the kernel of one effect of place did in a frame.
-struct FieldCount {
-    std::uint64_t calls = 0;    ///< for a block of clusters
-    std::uint64_t clusters = 0; ///< that it was evaluated for, once for each element of its table
-    /// Clusters, whether it was evaluated for them or not, that an element's boundary cuts; likewise.
-    std::uint64_t straddling = 0;
-
-    FieldCount& operator+=(const FieldCount& other)
-    {
-        calls += other.calls;
-        clusters += other.clusters;
-        straddling += other.straddling;
-        return *this;
-    }
-    friend bool operator==(const FieldCount&, const FieldCount&) = default;
-};
 
 /// A setting's numbers in order, to sort the elements of a table by: so that the order in the file, which
 /// means nothing, changes no rounding.
@@ -46,9 +30,6 @@ std::vector<double> sort_key(Settings settings) // for_each_field takes what it 
     });
     return key;
 }
-
-/// By effect of place, in the order of their list.
-using FieldCounts = std::array<FieldCount, AllFields::size>;
 
 template <class List>
 class FieldSet;
