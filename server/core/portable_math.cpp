@@ -80,8 +80,7 @@ double portable_log(double x)
 
 SineCosine portable_sincos(double angle)
 {
-    const Turn turn = turn_of(angle);
-    return {turn.sine, turn.cosine};
+    return sincos_of(angle);
 }
 
 } // namespace slod

@@ -4,22 +4,20 @@
 
 #include <cstdint>
 
-namespace {
+#include "core/portable_math.hpp"
 
-struct Turn {
-    double sine, cosine;
-};
+namespace {
 
 /// (sin r - r) / r^3 and (cos r - 1) / r^2 for |r| <= pi/4, by pairs of pairs (Estrin 1960); the first terms
 /// left out are 1e-19 and 2e-18 of sine and cosine.
-inline Turn bent_of(double r)
+inline slod::SineCosine bent_of(double r)
 {
-    constexpr double over_2 = 1 / 2.0, over_3 = 1 / 6.0, over_4 = 1 / 24.0, over_5 = 1 / 120.0,
-                     over_6 = 1 / 720.0, over_7 = 1 / 5040.0, over_8 = 1 / 40320.0, over_9 = 1 / 362880.0,
-                     over_10 = 1 / 3628800.0, over_11 = 1 / 39916800.0, over_12 = 1 / 479001600.0,
-                     over_13 = 1 / 6227020800.0, over_14 = 1 / 87178291200.0, over_15 = 1 / 1307674368000.0,
-                     over_16 = 1 / 20922789888000.0,
-                     over_17 = 1 / 355687428096000.0; // 1 / n!
+    // Constants of their own: no function that gives one is called.
+    constexpr const auto& over = slod::inverse_factorials;
+    constexpr double over_2 = over[2], over_3 = over[3], over_4 = over[4], over_5 = over[5], over_6 = over[6],
+                     over_7 = over[7], over_8 = over[8], over_9 = over[9], over_10 = over[10],
+                     over_11 = over[11], over_12 = over[12], over_13 = over[13], over_14 = over[14],
+                     over_15 = over[15], over_16 = over[16], over_17 = over[17];
     const double x = r * r, x2 = x * x, x4 = x2 * x2;
     return {((x * over_5 - over_3) + x2 * (x * over_9 - over_7)) +
                 x4 * ((x * over_13 - over_11) + x2 * (x * over_17 - over_15)),
@@ -27,7 +25,7 @@ inline Turn bent_of(double r)
                 x4 * ((x * over_12 - over_10) + x2 * (x * over_16 - over_14))};
 }
 
-inline Turn turn_of(double angle)
+inline slod::SineCosine sincos_of(double angle)
 {
     // pi/2 in three parts of 33 bits (Cody and Waite 1980).
     constexpr double half_pi_1 = 1.57079632673412561417e+00;
@@ -38,7 +36,7 @@ inline Turn turn_of(double angle)
     const double quadrant = shifted - whole;
     const double r = ((angle - quadrant * half_pi_1) - quadrant * half_pi_2) - quadrant * half_pi_3;
     const double r2 = r * r;
-    const Turn bent = bent_of(r);
+    const slod::SineCosine bent = bent_of(r);
     const double sine = r + r * r2 * bent.sine;
     const double cosine = 1 + r2 * bent.cosine;
     std::uint64_t turns; // by a right angle, in the lowest bits

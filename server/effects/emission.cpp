@@ -40,7 +40,7 @@ Emission::Emission(std::vector<Emitter> emitters, const UniformFields& fields, d
 Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, double closing_kick,
                                   std::uint64_t room)
 {
-    const Births births = bear(context, room);
+    const Births births = write_newborns(context, room);
     grouping_.order.clear();
     grouping_.groups.clear();
     founders_.clear();
@@ -54,7 +54,7 @@ Emission::Births Emission::update(SlodTree& tree, const UpdateContext& context, 
 }
 
 /// Writes all newborns of the frame, emitter by emitter.
-Emission::Births Emission::bear(const UpdateContext& context, std::uint64_t room)
+Emission::Births Emission::write_newborns(const UpdateContext& context, std::uint64_t room)
 {
     Births births;
     std::size_t total = 0;
@@ -68,12 +68,14 @@ Emission::Births Emission::bear(const UpdateContext& context, std::uint64_t room
     grouping_.resize(total);
     ages_.resize(total);
     const bool all_live = holds_in_blocks(total, brood_block, [&](std::size_t first, std::size_t last) {
+        std::array<Newborn, brood_block> block;
         bool live = true;
         for (std::size_t emitter = 0; emitter < broods_.size(); ++emitter) {
             const Brood& brood = broods_[emitter];
             const std::size_t begin = std::max(first, brood.first);
             const std::size_t end = std::min(last, brood.first + brood.count);
-            live = (begin >= end || bear(emitter, begin, end)) && live;
+            if (begin < end)
+                live = write_newborns(emitter, begin, std::span(block).first(end - begin)) && live;
         }
         return live;
     });
@@ -83,14 +85,13 @@ Emission::Births Emission::bear(const UpdateContext& context, std::uint64_t room
     return births;
 }
 
-/// Writes newborns [begin, end), at most a block, of one emitter; returns whether all outlive the frame.
-bool Emission::bear(std::size_t emitter, std::size_t begin, std::size_t end)
+/// Writes an emitter's newborns from `begin` of all on, by way of `newborns`; returns whether they all
+/// outlive the frame.
+bool Emission::write_newborns(std::size_t emitter, std::size_t begin, std::span<Newborn> newborns)
 {
     const Brood& brood = broods_[emitter];
     const double lifetime = emitters_[emitter].settings().lifetime;
     const double ahead = std::isfinite(lifetime) ? 0.5 * lifetime : mid_life_;
-    std::array<Newborn, brood_block> block;
-    const std::span<Newborn> newborns = std::span(block).first(end - begin);
     emitters_[emitter].bear(brood.starts, begin - brood.first, surroundings_, newborns);
     bool live = true;
     for (std::size_t i = 0; i < newborns.size(); ++i) {

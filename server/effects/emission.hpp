@@ -36,9 +36,10 @@ public:
         std::uint64_t refused = 0; ///< there was no room for
     };
 
-    /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused, and
-    /// those left out that end within it or are in a sink at its end. Where a kick of the length
-    /// `closing_kick` follows, particles that join a cohort get its acceleration for their own time only.
+    /// Emits frame `context.frame`, `room` particles at most; the later ones of a frame are refused. Left
+    /// out, but counted as long as there is room, are those that end within it or come into a sink. Where a
+    /// kick of the length `closing_kick` follows, particles that join a cohort get its acceleration for their
+    /// own time only.
     Births update(SlodTree& tree, const UpdateContext& context, double closing_kick, std::uint64_t room);
 
     const std::vector<NewCluster>& new_clusters() const { return new_clusters_; } ///< of the last update
@@ -56,8 +57,8 @@ private:
         std::size_t first = 0, count = 0;
     };
 
-    Births bear(const UpdateContext& context, std::uint64_t room);
-    bool bear(std::size_t emitter, std::size_t begin, std::size_t end);
+    Births write_newborns(const UpdateContext& context, std::uint64_t room);
+    bool write_newborns(std::size_t emitter, std::size_t begin, std::span<Newborn> newborns);
     void leave_out_dead(std::uint64_t frame);
     std::size_t join_cohort(SlodTree& tree, std::size_t emitter, const UpdateContext& context,
                             double closing_kick);

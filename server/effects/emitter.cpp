@@ -89,7 +89,8 @@ Newborn Emitter::newborn(std::uint64_t k, double start, const Starts& starts, co
     born.particle.velocity = velocity_at_birth(draws, place);
     born.particle.position = settings_.position + start * settings_.velocity;
     born.particle.position += shape_.draw(
-        settings_, axes_, DrawnNumbers(&draws.uniform[Draws::of_velocity][place], Draws::particles));
+        settings_, axes_,
+        DrawnNumbers(&draws.uniform[Draws::of_velocity][place], Draws::particles, shape_.numbers));
     born.particle.id = (std::uint64_t{index_} + 1) << id_shift | k;
     born.particle.mass = float(settings_.particle_mass);
     born.particle.kind = kind_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/assert.hpp"
 #include "effects/emitter_settings.hpp"
 
 namespace slod {
@@ -14,11 +15,15 @@ struct EmitterAxes {
 /// Random numbers of one particle, in (0, 1), that have been drawn beforehand.
 class DrawnNumbers {
 public:
-    /// They are `stride` apart.
-    DrawnNumbers(const double* first, std::size_t stride) : next_(first), stride_(stride) {}
+    /// So many, `stride` apart.
+    DrawnNumbers(const double* first, std::size_t stride, std::size_t count)
+        : next_(first), stride_(stride), left_(count)
+    {}
 
     double uniform()
     {
+        SLOD_ASSERT(left_ > 0);
+        --left_;
         const double number = *next_;
         next_ += stride_;
         return number;
@@ -26,7 +31,7 @@ public:
 
 private:
     const double* next_;
-    std::size_t stride_;
+    std::size_t stride_, left_;
 };
 
 /// A shape that particles start from. `draw` gives the offset of one from the shape's centre, distributed

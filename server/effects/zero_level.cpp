@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 #include "core/assert.hpp"
 
@@ -29,7 +30,11 @@ public:
             steps_[corner] = (corner & 1U) + nx * ((corner >> 1 & 1U) + ny * (corner >> 2));
     }
 
-    const Mesh& mesh() const { return mesh_; }
+    bool too_large() const
+    {
+        return mesh_.vertices.size() > max_mesh_vertices || mesh_.triangles.size() > max_mesh_triangles;
+    }
+    Mesh take() && { return std::move(mesh_); }
 
     /// A cell is called by its lowest corner.
     void add_cell(std::size_t cell)
@@ -123,16 +128,14 @@ std::optional<Mesh> zero_level(const DistanceGrid& grid)
 {
     SurfaceBuilder surface(grid);
     const auto [nx, ny, nz] = grid.size;
-    for (std::size_t z = 0; z + 1 < nz; ++z) {
-        for (std::size_t y = 0; y + 1 < ny; ++y) {
-            for (std::size_t x = 0; x + 1 < nx; ++x)
+    for (std::size_t z = 0; z + 1 < nz; ++z)
+        for (std::size_t y = 0; y + 1 < ny; ++y)
+            for (std::size_t x = 0; x + 1 < nx; ++x) {
                 surface.add_cell(x + nx * (y + ny * z));
-            const Mesh& mesh = surface.mesh();
-            if (mesh.vertices.size() > max_mesh_vertices || mesh.triangles.size() > max_mesh_triangles)
-                return {};
-        }
-    }
-    return surface.mesh();
+                if (surface.too_large())
+                    return {};
+            }
+    return std::move(surface).take();
 }
 
 } // namespace slod

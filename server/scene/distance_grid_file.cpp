@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -10,8 +11,11 @@
 namespace slod {
 namespace {
 
-/// A digit and a blank each.
-constexpr std::size_t max_samples = max_surface_file_bytes / 2;
+/// Of 8 bytes each while a file is read: 322 along each axis.
+constexpr std::size_t max_samples = std::size_t{1} << 25;
+
+/// Of the largest coordinate: nearer to each other, rounding would turn the triangles between samples.
+constexpr double least_spacing = 1e-9;
 
 /// Far corners have coordinates that other files may have too.
 constexpr double farthest = 1e30;
@@ -37,8 +41,7 @@ std::array<std::size_t, 3> read_size(TextLines& lines)
             lines.refuse("\"" + std::string(words[axis]) +
                          "\" is no number of samples along an axis; write a whole one, 2 or more.");
         if (std::uint64_t(*count) > max_samples / samples)
-            lines.refuse("more than " + std::to_string(max_samples) + " samples, which no file of at most " +
-                         std::to_string(max_surface_file_bytes) + " bytes has; use a coarser grid.");
+            lines.refuse("more than " + std::to_string(max_samples) + " samples; use a coarser grid.");
         size[axis] = std::size_t(*count);
         samples *= size[axis];
     }
@@ -61,10 +64,10 @@ double read_spacing(TextLines& lines, const DistanceGrid& grid)
         const double last = first + spacing * double(grid.size[std::size_t(axis)] - 1);
         if (last > farthest)
             lines.refuse("the grid reaches to " + number_text(last) + "; use -1e30 to 1e30.");
-        if (first + spacing == first || last - spacing == last)
+        if (spacing < least_spacing * std::max(std::abs(first), std::abs(last)))
             lines.refuse("samples at " + number_text(last) +
-                         " are nearer to each other than rounding; use a "
-                         "wider spacing, or an origin nearer to 0.");
+                         " are nearer to each other than a billionth of that; use a wider spacing, or an "
+                         "origin nearer to 0.");
     }
     return spacing;
 }
@@ -105,7 +108,8 @@ Mesh grid_mesh(TextLines& lines)
     if (surface->triangles.empty()) {
         const auto [least, most] = std::minmax_element(grid.distances.begin(), grid.distances.end());
         lines.refuse_file("its distances, of " + number_text(*least) + " to " + number_text(*most) +
-                          ", have no surface between inside and outside; give some below 0 and some above.");
+                          ", have no surface between inside and outside; give some below 0 and some above, "
+                          "by more than a millionth of the spacing.");
     }
     return std::move(*surface);
 }

@@ -193,7 +193,7 @@ void Simulation::State::take(const SimulationSettings& wanted)
 
 void Simulation::State::place_fields()
 {
-    const FieldSource source{settings.seed};
+    const FieldSource source = field_source();
     if (field_forces)
         field_forces.emplace(settings.fields, source, settings.gravity.has_value(), tick);
     if (air)

@@ -119,8 +119,7 @@ Simulation::State::State(const SimulationSettings& wanted, const ParticleSet& in
     if (plan.member_kicks)
         member_kicks.emplace(settings.speed_limit, settings.brownian, settings.seed);
     if (plan.field_forces)
-        field_forces.emplace(settings.fields, FieldSource{settings.seed, &kernels->waves},
-                             settings.gravity.has_value(), tick);
+        field_forces.emplace(settings.fields, field_source(), settings.gravity.has_value(), tick);
     set_detail();
     tree.merging = tree.merging || plan.merging;
     if (tree.regions.size() > 1)

@@ -105,6 +105,7 @@ struct Simulation::State {
     {
         for (std::size_t i = 0; i < counts.size(); ++i) {
             snapshot.counts.fields[first + i] += counts[i];
+            snapshot.counts.fields[first + i].straddling = counts[i].straddling; // as the frame leaves it
             EffectWork& work = snapshot.effects[first_field_effect + first + i];
             work.clusters = counts[i].clusters;
             work.straddling = counts[i].straddling;
@@ -114,6 +115,7 @@ struct Simulation::State {
     void note_effects(); ///< what the others did
 
     UpdateContext context() { return {store, frame, settings.time.step}; }
+    FieldSource field_source() const { return {settings.seed, &kernels->waves}; }
     Problems problems() const;
 
     SimulationSettings asked;    ///< as they were given

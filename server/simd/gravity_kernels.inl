@@ -6,37 +6,11 @@
 // evaluated ahead (see add).
 
 #include "simd/gravity_kernels.hpp"
+#include "simd/lanes.inl"
 
 namespace slod::simd::SLOD_ISA {
 
 namespace {
-
-template <class Real>
-struct Register {
-    typedef Real Lanes __attribute__((vector_size(register_bytes)));
-};
-
-/// One register: a number for each of lane_count targets.
-template <class Real>
-using Lanes = typename Register<Real>::Lanes;
-
-template <class Real>
-constexpr std::size_t lane_count = register_bytes / sizeof(Real);
-
-template <class Real>
-Lanes<Real> load(const Real* from)
-{
-    Lanes<Real> lanes;
-    __builtin_memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-}
-
-template <class Real>
-void add_to(Real* to, const Lanes<Real>& lanes)
-{
-    const Lanes<Real> sum = load(to) + lanes;
-    __builtin_memcpy(to, &sum, sizeof sum);
-}
 
 float square_root(float value)
 {

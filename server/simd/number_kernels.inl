@@ -53,7 +53,7 @@ void sines_and_cosines(const double* __restrict angles, std::size_t count, doubl
                        double* __restrict cosines)
 {
     for (std::size_t i = 0; i < count; ++i) {
-        const Turn turn = turn_of(angles[i]);
+        const SineCosine turn = sincos_of(angles[i]);
         sines[i] = turn.sine;
         cosines[i] = turn.cosine;
     }

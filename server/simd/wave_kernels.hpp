@@ -28,6 +28,9 @@ struct WavePlaces {
 /// compute the same bits.
 struct WaveKernels {
     void (*sum_up)(const Waves&, const WavePlaces&);
+
+    /// At one place alone; the same bits.
+    void (*sum_up_at)(const Waves&, const double (&x)[3], double (&value)[3], double (&gradient)[3][3]);
 };
 
 } // namespace slod::simd

@@ -188,8 +188,11 @@ public:
         AlignedVector<float> speeds(block_count(flat_.alive(), block));
         for_each_block(flat_.alive(), block, [&](std::size_t first, std::size_t last) {
             FieldValue wind;
-            for (std::size_t i = first; i < last; ++i)
-                turbulence.add(flat_.position(i), 1, wind);
+            {
+                Asking asking(turbulence, 1);
+                for (std::size_t i = first; i < last; ++i)
+                    asking.add(flat_.position(i), wind);
+            }
             speeds[first / block] = float(wind.value.norm());
         });
         asked_ms_.push_back(milliseconds_since(start));

@@ -101,6 +101,20 @@ std::string name_of_motion(const testing::TestParamInfo<Motion>& info)
 INSTANTIATE_TEST_SUITE_P(Motions, Straddling, testing::Values(Motion::Flow, Motion::Stream, Motion::Rigid),
                          name_of_motion);
 
+TEST(Straddling, FramesThatAreCutIntoStepsCountAClusterOnce)
+{
+    SmallScene scene = row_of_crowds(Motion::Flow);
+    scene.settings.time.max_substeps = 8;
+    scene.settings.time.substep_angle = 1e-6;
+    scene.settings.fields.of<Attractor>() = {{.position = {0.1, 0.5, 0.5}, .strength = 1e-3, .radius = 2.5}};
+    Simulation simulation(scene.settings, scene.initial, {});
+    for (int frame = 0; frame < 2; ++frame) {
+        const FrameCounts& counts = simulation.step({}).counts;
+        EXPECT_EQ(counts.substeps, 8U);
+        EXPECT_EQ(counts.fields[effect_row("attractor") - first_field_effect].straddling, 2U);
+    }
+}
+
 TEST(Straddling, NoParticleByItselfIsCounted)
 {
     SmallScene scene = row_of_crowds(Motion::Flow, 1);

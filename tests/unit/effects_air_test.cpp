@@ -255,26 +255,6 @@ TEST_F(Eddies, HaveTheSpeedThatIsAskedFor)
     EXPECT_LE(mean.norm(), 5 * 2 / std::sqrt(double(places)));
 }
 
-TEST_F(Eddies, AreTheSameAtManyPlacesAsAtEach)
-{
-    for (const int count : {1, 7, 64, 65, 200}) { // a tile is of 64
-        std::vector<FieldValue> together(static_cast<std::size_t>(count),
-                                         FieldValue{{1, 2, 3}, Matrix3d::Ones()});
-        const std::vector<FieldValue> before = together;
-        {
-            Asking asking(turbulence_, 0.3);
-            for (int i = 0; i < count; ++i)
-                asking.add(some_place(i), together[std::size_t(i)]);
-        }
-        for (int i = 0; i < count; ++i) {
-            FieldValue alone = before[std::size_t(i)];
-            turbulence_.add(some_place(i), 0.3, alone);
-            ASSERT_EQ(together[std::size_t(i)].value, alone.value) << i << " of " << count;
-            ASSERT_EQ(together[std::size_t(i)].gradient, alone.gradient) << i << " of " << count;
-        }
-    }
-}
-
 TEST_F(Eddies, FollowTheSeed)
 {
     const Turbulence same(settings_, FieldSource{1}), other(settings_, FieldSource{2});

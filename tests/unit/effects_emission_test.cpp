@@ -98,6 +98,45 @@ TEST(Emission, EveryParticleIsInExactlyOneCluster)
     EXPECT_EQ(problems(fountain.world.tree, fountain.world.store.clusters), Problems{});
 }
 
+/// Those born in the first half of a frame, up to its middle, end within it.
+EmitterSettings short_lived(double per_frame)
+{
+    EmitterSettings emitter = jet(per_frame);
+    emitter.lifetime = 0.5 * step;
+    return emitter;
+}
+
+// Emitters share blocks of 256 newborns, and those that end at once are left out of the middle.
+TEST(Emission, EachEmittersNewbornsAreThoseThatItBearsByItself)
+{
+    const std::vector<EmitterSettings> jets{jet(300), jet(1), short_lived(301), jet(0), jet(500)};
+    Fountain fountain(jets);
+    fountain.advance();
+    std::vector<Newborn> expected;
+    for (const Emitter& emitter : Fountain::emitters_of(jets))
+        test::add_newborns(emitter, fountain.frame, step, {}, expected);
+    EXPECT_EQ(expected.size(), 300U + 1U + 150U + 500U);
+    EXPECT_EQ(fountain.born, expected.size());
+    std::map<std::uint64_t, Particle> found;
+    for (const Particle& particle : test::members(fountain.world.store, fountain.frame))
+        EXPECT_TRUE(found.emplace(particle.id, particle).second);
+    ASSERT_EQ(found.size(), expected.size());
+    for (const Newborn& newborn : expected) {
+        const Particle& particle = found[newborn.particle.id];
+        EXPECT_LE((particle.position - newborn.particle.position).norm(), 1e-6);
+        EXPECT_LE((particle.velocity - newborn.particle.velocity).norm(), 1e-6);
+    }
+}
+
+TEST(Emission, WhatEndsAtOnceTakesRoomFromLaterEmitters)
+{
+    Fountain fountain({short_lived(80), jet(80)});
+    fountain.most = 100;
+    fountain.advance();
+    EXPECT_EQ(fountain.refused, 60U);
+    EXPECT_EQ(fountain.born, 39U + 20U);
+}
+
 TEST(Emission, EmittersDoNotMixTheirParticles)
 {
     Fountain fountain({jet(3), jet(5)});

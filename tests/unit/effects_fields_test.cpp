@@ -117,6 +117,32 @@ TYPED_TEST(EffectOfPlace, IsFiniteEverywhereAndNothingOutsideItsBounds)
     }
 }
 
+TYPED_TEST(EffectOfPlace, ThatEndsHasABoundaryForClustersToStraddle)
+{
+    const Box bounds = this->field_.bounds();
+    const bool ends = bounds.lower.array().isFinite().any() || bounds.upper.array().isFinite().any();
+    EXPECT_TRUE(!ends || HasBoundary<TypeParam>);
+}
+
+TYPED_TEST(EffectOfPlace, IsTheSameAtManyPlacesAsAtEach)
+{
+    for (const std::size_t count : {1U, 7U, 64U, 65U, 200U}) { // some are asked at 64 together
+        std::vector<FieldValue> together(count, FieldValue{{1, 2, 3}, Matrix3d::Ones()});
+        const std::vector<FieldValue> before = together;
+        {
+            Asking asking(this->field_, 0.3);
+            for (std::size_t i = 0; i < count; ++i)
+                asking.add(some_place(i), together[i]);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            FieldValue alone = before[i];
+            this->field_.add(some_place(i), 0.3, alone);
+            ASSERT_EQ(together[i].value, alone.value) << i << " of " << count;
+            ASSERT_EQ(together[i].gradient, alone.gradient) << i << " of " << count;
+        }
+    }
+}
+
 TYPED_TEST(EffectOfPlace, OfNoStrengthDoesNotAct)
 {
     EXPECT_FALSE(TypeParam(powerless<TypeParam>(), FieldSource{}).acts());

@@ -77,24 +77,37 @@ std::vector<Turbulence::Wave> Turbulence::waves() const
     return all;
 }
 
+/// As the kernels take them, with `shifts` of that time.
+simd::Waves Turbulence::waves_at(double time, Shifts& shifts) const
+{
+    for (std::size_t wave = 0; wave < rate_.size(); ++wave)
+        shifts[wave] = rate_[wave] * time;
+    simd::Waves waves{
+        .count = rate_.size(), .number = {}, .velocity = {}, .shift = shifts.data(), .phase = phase_.data()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        waves.number[axis] = number_[axis].data();
+        waves.velocity[axis] = velocity_[axis].data();
+    }
+    return waves;
+}
+
 void Turbulence::add(const Vector3d& x, double time, FieldValue& sum) const
 {
-    FieldValue* const there = &sum;
-    add_all({&x, 1}, time, {&there, 1});
+    Shifts shifts;
+    double value[3], gradient[3][3];
+    kernels_->sum_up_at(waves_at(time, shifts), {x.x(), x.y(), x.z()}, value, gradient);
+    for (int i = 0; i < 3; ++i) {
+        sum.value[i] += value[i];
+        for (int j = 0; j < 3; ++j)
+            sum.gradient(i, j) += gradient[i][j];
+    }
 }
 
 void Turbulence::add_all(std::span<const Vector3d> places, double time,
                          std::span<FieldValue* const> sums) const
 {
-    std::array<double, most_waves> shift;
-    for (std::size_t wave = 0; wave < rate_.size(); ++wave)
-        shift[wave] = rate_[wave] * time;
-    simd::Waves waves{
-        .count = rate_.size(), .number = {}, .velocity = {}, .shift = shift.data(), .phase = phase_.data()};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        waves.number[axis] = number_[axis].data();
-        waves.velocity[axis] = velocity_[axis].data();
-    }
+    Shifts shifts;
+    const simd::Waves waves = waves_at(time, shifts);
     for (std::size_t first = 0; first < places.size(); first += tile) {
         const std::size_t count = std::min(tile, places.size() - first);
         add_some(places.subspan(first, count), waves, sums.subspan(first, count));

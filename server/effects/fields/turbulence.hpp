@@ -64,6 +64,9 @@ private:
     static constexpr std::size_t waves_of_octave = 12;
     static constexpr std::size_t most_waves = max_octaves * waves_of_octave;
 
+    using Shifts = std::array<double, most_waves>;
+
+    simd::Waves waves_at(double time, Shifts& shifts) const;
     void add_some(std::span<const Vector3d> places, const simd::Waves& waves,
                   std::span<FieldValue* const> sums) const;
 
