@@ -56,7 +56,7 @@ public:
     /// Up to 31 bytes.
     std::string text()
     {
-        const std::size_t size = std::min(below(32), rest_.size());
+        const std::size_t asked = below(32), size = std::min(asked, rest_.size());
         const std::string taken(rest_.substr(0, size));
         rest_.remove_prefix(size);
         return taken;
