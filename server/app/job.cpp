@@ -102,6 +102,33 @@ std::variant<Job, Problems> load_replay(const CommandLine& line)
     return loaded;
 }
 
+std::string place_text(const Vector3d& x)
+{
+    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", x.x(), x.y(), x.z());
+}
+
+/// What was read for colliders that are surfaces in files, in the files' own coordinates.
+std::vector<std::string> surface_texts(const std::vector<ColliderSettings>& colliders)
+{
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        if (colliders[i].mesh == nullptr)
+            continue;
+        const Mesh& mesh = *colliders[i].mesh;
+        Vector3d lower = mesh.vertices.front(), upper = lower;
+        for (const Vector3d& vertex : mesh.vertices) {
+            lower = lower.cwiseMin(vertex);
+            upper = upper.cwiseMax(vertex);
+        }
+        const std::size_t rim = rim_edges(mesh);
+        texts.push_back(fmt::format("collider.{}: {} has {} triangles from {} to {}, {}", i,
+                                    colliders[i].file, mesh.triangles.size(), place_text(lower),
+                                    place_text(upper),
+                                    rim == 0 ? "closed" : fmt::format("open along {} edges", rim)));
+    }
+    return texts;
+}
+
 } // namespace
 
 std::variant<Job, Problems> load_job(const CommandLine& line)
@@ -111,8 +138,12 @@ std::variant<Job, Problems> load_job(const CommandLine& line)
 
 std::string soundness(const Job& job)
 {
-    return fmt::format("{} is sound: \"{}\", {} particles at the start. {}", job.origin.scene_name,
-                       job.scene.title, job.initial.particles.size(), job.initial.source);
+    std::string text =
+        fmt::format("{} is sound: \"{}\", {} particles at the start. {}", job.origin.scene_name,
+                    job.scene.title, job.initial.particles.size(), job.initial.source);
+    for (const std::string& surface : surface_texts(job.scene.simulation.colliders))
+        text += "\n" + surface;
+    return text;
 }
 
 std::string plan_text(const Job& job)
@@ -126,6 +157,8 @@ void log_job(const Job& job)
                  job.scene.title, job.initial.particles.size(), job.initial.source, version());
     for (const std::string& record : settings_records(job.scene))
         spdlog::info(record);
+    for (const std::string& surface : surface_texts(job.scene.simulation.colliders))
+        spdlog::info(surface);
 }
 
 } // namespace slod

@@ -97,8 +97,9 @@ void for_each_field(ColliderSettings& collider, Visitor&& visit)
         Field{
             "file", "",
             "Of a mesh (Wavefront OBJ, faces of at most 64 vertices, 256 triangles at each), a heightfield "
-            "(rows of heights, along x) or a distance_grid (SDFGen's text, below 0 inside, solid where it is "
-            "0), from the scene's folder."},
+            "(rows of heights, along x) or a distance_grid (SDFGen's text: numbers of samples, first place, "
+            "spacing, and the distances, x fastest; a hollow sheet where they are 0, open where the grid "
+            "ends), from the scene's folder."},
         collider.file);
     visit(Field{"scale", "length", "What 1 is in the file; of a heightfield, in its heights.", 0, 1e30},
           collider.scale);

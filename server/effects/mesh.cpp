@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace slod {
 
@@ -22,6 +23,23 @@ std::vector<std::uint32_t> first_at_each_place(const std::vector<Vector3d>& vert
         first_at[order[i]] =
             i > 0 && place(order[i]) == place(order[i - 1]) ? first_at[order[i - 1]] : order[i];
     return first_at;
+}
+
+std::size_t rim_edges(const Mesh& mesh)
+{
+    const std::vector<std::uint32_t> first_at = first_at_each_place(mesh.vertices);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const Mesh::Triangle& triangle : mesh.triangles)
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            edges.push_back(std::minmax({first_at[triangle[corner]], first_at[triangle[(corner + 1) % 3]]}));
+    std::sort(edges.begin(), edges.end());
+    std::size_t alone = 0;
+    for (auto edge = edges.begin(); edge != edges.end();) {
+        const auto next = std::find_if(edge, edges.end(), [&](const auto& other) { return other != *edge; });
+        alone += next - edge == 1 ? 1 : 0;
+        edge = next;
+    }
+    return alone;
 }
 
 } // namespace slod

@@ -27,4 +27,8 @@ inline constexpr std::uint32_t max_vertex_triangles = 256;
 /// For each vertex the first one at the same place, which may be itself. O(n log n).
 std::vector<std::uint32_t> first_at_each_place(const std::vector<Vector3d>& vertices);
 
+/// Edges that are of one triangle alone, where the surface is open; vertices at the same place are one. O(n
+/// log n).
+std::size_t rim_edges(const Mesh& mesh);
+
 } // namespace slod

@@ -109,7 +109,7 @@ Mesh grid_mesh(TextLines& lines)
         const auto [least, most] = std::minmax_element(grid.distances.begin(), grid.distances.end());
         lines.refuse_file("its distances, of " + number_text(*least) + " to " + number_text(*most) +
                           ", have no surface between inside and outside; give some below 0 and some above, "
-                          "by more than a millionth of the spacing.");
+                          "by more than rounding.");
     }
     return std::move(*surface);
 }

@@ -164,6 +164,8 @@ TEST_F(Server, ChecksExplainsAndListsKeysWithoutRunning)
     const ServerRun check = run_server({scene_, "--check"});
     EXPECT_EQ(check.exit_code, 0) << check.output;
     EXPECT_TRUE(contains(check.output, "sound")) << check.output;
+    const ServerRun bowl = run_server({SLOD_SCENES "/bowl.toml", "--check"});
+    EXPECT_TRUE(contains(bowl.output, "stepped-bowl.obj has 312 triangles from [")) << bowl.output;
     const ServerRun explained = run_server({scene_, "--explain"});
     EXPECT_EQ(explained.exit_code, 0);
     EXPECT_TRUE(contains(explained.output, "emit")) << explained.output;

@@ -140,6 +140,17 @@ TEST(ZeroLevel, IsEmptyWhereNothingIsBetweenInsideAndOutside)
     EXPECT_EQ(triangles([](const Vector3d& x) { return x == Vector3d(1, 1, 1) ? 0.0 : -1.0; }), 0U);
 }
 
+TEST(RimEdges, AreThoseOfOneTriangleAlone)
+{
+    const std::vector<Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    EXPECT_EQ(rim_edges({square, {{0, 1, 2}}}), 3U);
+    EXPECT_EQ(rim_edges({square, {{0, 1, 2}, {0, 2, 3}}}), 4U);
+    std::vector<Vector3d> doubled = square;
+    doubled.insert(doubled.end(), square.begin(), square.end());
+    EXPECT_EQ(rim_edges({doubled, {{0, 1, 2}, {4, 6, 7}}}), 4U) << "vertices at the same place are one";
+    EXPECT_EQ(rim_edges(zero_level(ball_grid(1, 0.25)).value()), 0U);
+}
+
 // Points inside and outside in turn have 4 vertices each and 12 triangles to a cell; a point by itself has 14
 // and 24.
 TEST(ZeroLevel, IsNoneBeyondEachOfTheLimits)

@@ -243,8 +243,7 @@ TEST_F(SurfaceFile, OfDistancesIsRefusedWithLineTextAndRemedyWhereItIsMalformed)
          {"s.sdf: its distances, of 0.25 to 1, have no surface between inside and outside; "
           "give some below 0 and some above"}},
         {grid_text("0"), {"its distances, of 0 to 1, have no surface"}},
-        {grid_text("-1e-9"),
-         {"its distances, of -1e-09 to 1, have no surface", "a millionth of the spacing"}},
+        {grid_text("-1e-9"), {"its distances, of -1e-09 to 1, have no surface", "by more than rounding"}},
         {head + "1\n-1 -1 -1 -1 -2 -2 -2 -2\n", {"its distances, of -2 to -1, have no surface"}},
         {head + "1\n-1 -1 -1 -1 -2 -2 -2 0\n", {"its distances, of -2 to 0, have no surface"}},
     };
