@@ -320,8 +320,7 @@ void insert_member(ClusterStore& store, ClusterSlot cluster, const Particle& par
     const double share = all > 0 ? (clusters.mass(slot) > 0 ? mass : 1.0) / all : 0.0;
     clusters.position[slot] += share * away;
     clusters.velocity[slot] += share * rush;
-    clusters.offset_max[slot] = std::max(clusters.offset_max[slot], offset.position.norm());
-    clusters.speed_max[slot] = std::max(clusters.speed_max[slot], offset.velocity.norm());
+    note_bounds(clusters, slot, offset);
     if (clusters.mass(slot) > 0) {
         const double softening = double(clusters.softening_squared[slot]);
         const double step = store.kind_softening_squared[particle.kind] - softening;
