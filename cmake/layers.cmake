@@ -14,7 +14,7 @@ if(SLOD_VALIDATE)
     target_compile_definitions(slod_options INTERFACE SLOD_VALIDATE)
 endif()
 
-option(SLOD_PLAIN_THREADS "Run parallel loops on std::jthread, for ThreadSanitizer, which cannot see into libtbb" OFF)
+option(SLOD_PLAIN_THREADS "Run parallel loops on std::jthread: ThreadSanitizer cannot see into libtbb" OFF)
 
 # slod_layer(<folder> SOURCES <files> [DEPENDS <libraries>] [PRIVATE <libraries>]): one library slod_<name> per folder.
 # Its headers are found only by those who link it: the include root of a layer is a folder of its

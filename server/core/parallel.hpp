@@ -6,8 +6,7 @@
 #include <immintrin.h>
 
 #ifdef SLOD_PLAIN_THREADS
-#include <thread>
-#include <vector>
+#include "core/plain_threads.hpp"
 #else
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -32,21 +31,18 @@ private:
 
 #ifdef SLOD_PLAIN_THREADS
 
-/// How many threads the loops below may use. ThreadSanitizer cannot see into libtbb; these it can.
+/// The threads that the loops below may use, from when it is made.
 class ThreadTeam {
 public:
-    explicit ThreadTeam(int thread_count) { size() = std::max(thread_count, 1); }
+    explicit ThreadTeam(int thread_count)
+    {
+        PlainThreads::instance().resize(std::size_t(std::max(thread_count, 1)));
+    }
 
     template <class Work>
     void run(const Work& work)
     {
         work();
-    }
-
-    static int& size()
-    {
-        static int threads = 2;
-        return threads;
     }
 };
 
@@ -55,15 +51,15 @@ template <class Body>
 void for_each_task(std::size_t count, const Body& body)
 {
     std::atomic<std::size_t> next{0};
+    // Relaxed, so that the order in which bodies happen to run does not hide from ThreadSanitizer that they
+    // might have run at the same time.
+    const auto take = [&] { return next.fetch_add(1, std::memory_order_relaxed); };
     const auto drain = [&] {
         const FlushDenormals flush;
-        for (std::size_t index = next++; index < count; index = next++)
+        for (std::size_t index = take(); index < count; index = take())
             body(index);
     };
-    std::vector<std::jthread> helpers;
-    for (std::size_t helper = 1; helper < std::min(count, std::size_t(ThreadTeam::size())); ++helper)
-        helpers.emplace_back(drain);
-    drain();
+    PlainThreads::instance().run(std::max<std::size_t>(count, 1) - 1, drain);
 }
 
 /// Runs both, concurrently; returns when both are done.
