@@ -9,17 +9,20 @@ namespace {
 /// Share of an error that is taken up at once. More than the whole where it may, as births follow the size at
 /// once, but what is there merges in rounds, and may have died before the last; with gravity less, as the
 /// work grows faster than the clusters and would swing.
-constexpr double gain_of_fields = 2, gain_of_gravity = 0.9;
+constexpr double gain_of_fields = 2.75, gain_of_gravity = 0.9;
 constexpr double most_rise = 0.06, most_fall = 0.025; ///< of the output in a frame
-constexpr double rest = 0.02;                         ///< error within which the output rests
-constexpr double leave = 0.04;                        ///< and above which it no longer does
-constexpr double reached = 0.05;                      ///< error up to which the target counts as met
+/// With so much time to spare, and no more growth than that over the foresight, both as logarithms, the
+/// output may fall as fast as it rises.
+constexpr double ample = 0.2, no_growth = 0.05;
+constexpr double rest = 0.02;    ///< error within which the output rests
+constexpr double leave = 0.04;   ///< and above which it no longer does
+constexpr double reached = 0.05; ///< error up to which the target counts as met
 /// Frames in which clusters begin to follow: splits are swept over 8 frames, merges over 16.
 constexpr double lag_frames = 6;
-/// Frames whose births are taken into account: those until a size decided now is that of most clusters, a
-/// round of merges and some. With 10 a stream that fills exceeds the target by a sixth, with 24 it stays
-/// below.
-constexpr double foresight_frames = 20;
+/// Frames whose births are taken into account: those until a size decided now is that of most clusters, two
+/// rounds of merges. With 10 a stream that fills exceeds the target by a seventh, with 32 by a fourteenth;
+/// with 45 it falls short by a fourteenth.
+constexpr double foresight_frames = 32;
 /// Largest differences, of output and lagged output and of crowding and the mean of its last frames, at which
 /// the fill is learned: either the clusters have followed, or they do not.
 constexpr double steady = 0.03, stuck = 0.005;
@@ -72,7 +75,9 @@ Detail SmoothController::next(const FrameWork& work)
     if (frames_ == 0) {
         fill_ = crowding + output_;
         crowding_before_ = crowding;
+        mean_growth_ = work.growth;
     }
+    mean_growth_ += (work.growth - mean_growth_) / lag_frames;
     costs_[frames_++ % window] = std::log(work.work_ms) - clusters;
     if (frames_ < few)
         return detail_;
@@ -81,9 +86,10 @@ Detail SmoothController::next(const FrameWork& work)
     };
     const double quick = error_over(few);
     const double error = std::abs(quick) > large ? quick : error_over(std::min(frames_, window));
-    const double growth =
-        std::log(std::max(1 + foresight_frames * work.growth / double(work.particles), 0.1));
-    turn_size(error, crowding, growth);
+    const auto foreseen = [&](double growth) {
+        return std::log(std::max(1 + foresight_frames * growth / double(work.particles), 0.1));
+    };
+    turn_size(error, crowding, foreseen(work.growth), foreseen(mean_growth_));
     learn_fill(crowding);
     turn_levers(error);
     judge(error);
@@ -101,13 +107,14 @@ double SmoothController::median_cost(std::size_t frames) const
     return *middle;
 }
 
-void SmoothController::turn_size(double error, double crowding, double growth)
+void SmoothController::turn_size(double error, double crowding, double growth, double mean_growth)
 {
-    const bool resting = std::abs(error + growth) < (state_ == ControlState::Holding ? leave : rest);
+    const bool resting = std::abs(error + mean_growth) < (state_ == ControlState::Holding ? leave : rest);
     if (!resting) {
         const double gain = scope_.opening ? gain_of_gravity : gain_of_fields;
         const double wanted = fill_ - crowding + gain * error + growth;
-        output_ += std::clamp(wanted - output_, -most_fall, most_rise);
+        const bool fast = error < -ample && growth < no_growth;
+        output_ += std::clamp(wanted - output_, fast ? -most_rise : -most_fall, most_rise);
     }
     output_ = std::clamp(output_, least_output(), most_output());
     lagged_ += (output_ - lagged_) / lag_frames;

@@ -19,9 +19,10 @@ namespace slod {
 /// The work per cluster is a median over the last frames, of few where the error is large and of more where
 /// it is small: an outlier, or a clock that jumps, changes nothing. Within a band about the target the output
 /// rests, and is left only where the error is above twice that. The output rises by no more than 6 % a frame,
-/// falls by no more than 2.5 %, as a frame that is late is worse than one that is early, and clusters split
-/// at sizes of their own (Detail), so that few of them change in any frame. Particles that will have been
-/// born when clusters have followed are taken into account.
+/// and falls by no more than 2.5 %, as a frame that is late is worse than one that is early; by 6 % where
+/// more than a fifth of the time is left and particles hardly grow in number. Clusters split at sizes of
+/// their own (Detail), so that few of them change in any frame. Particles that will have been born when
+/// clusters have followed are taken into account; where it is asked whether to rest, at their mean rate.
 ///
 /// Where clusters are at their largest and that is not enough, other levers follow in steps, in the order
 /// opening, life, breadth; where clusters are less than half that large, or as small as they may be with time
@@ -50,8 +51,8 @@ private:
     /// Of the logarithms of work per cluster over the last `frames`.
     double median_cost(std::size_t frames) const;
     /// `error`: logarithm of work over target. `crowding`: of clusters over particles. `growth`: of particles
-    /// there will be over those there are.
-    void turn_size(double error, double crowding, double growth);
+    /// there will be over those there are; `mean_growth`: the same at their mean rate.
+    void turn_size(double error, double crowding, double growth, double mean_growth);
     void learn_fill(double crowding);
     void turn_levers(double error);
     /// Turns the first lever that can be turned, or the last that was; false when there is none.
@@ -74,6 +75,7 @@ private:
     double lagged_;                                            ///< the same, as the clusters follow it
     double fill_ = 0;            ///< crowding + output once clusters have followed
     double crowding_before_ = 0; ///< mean of the last frames
+    double mean_growth_ = 0;     ///< particles born less those that died, over the last frames
     int turn_frames_ = 0;        ///< in a row that asked for a turn of the further levers
     bool exhausted_ = false;     ///< none is left to turn
 };
