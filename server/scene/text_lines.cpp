@@ -4,6 +4,13 @@
 
 namespace slod {
 
+void drop_byte_order_mark(std::string& first_line)
+{
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    if (first_line.starts_with(mark))
+        first_line.erase(0, mark.size());
+}
+
 TextLines::TextLines(const std::filesystem::path& file, std::uintmax_t max_bytes) : name_(file.string())
 {
     std::error_code error;
@@ -24,7 +31,8 @@ bool TextLines::next()
 {
     constexpr std::string_view blanks = " \t\r\v\f";
     while (std::getline(stream_, line_)) {
-        ++line_number_;
+        if (++line_number_ == 1)
+            drop_byte_order_mark(line_);
         if (line_.size() > longest)
             refuse_file("line " + std::to_string(line_number_) + " is longer than " +
                         std::to_string(longest) + " characters; name a file of text.");

@@ -22,7 +22,10 @@ struct UnusableText : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads a file of words line by line. Every function throws UnusableText.
+/// Takes away what some editors begin a file of UTF-8 with.
+void drop_byte_order_mark(std::string& first_line);
+
+/// Reads a file of words line by line; passes a byte order mark over. Every function throws UnusableText.
 class TextLines {
 public:
     /// Longest line, characters.

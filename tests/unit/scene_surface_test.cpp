@@ -52,7 +52,7 @@ protected:
 
 TEST_F(SurfaceFile, HasVerticesAndFacesInEveryNotation)
 {
-    const Mesh read = mesh("# a square\r\nmtllib a.mtl\no square\n" + square_ +
+    const Mesh read = mesh("\xEF\xBB\xBF# a square\r\nmtllib a.mtl\no square\n" + square_ +
                            "vt 0 0\nvn 0 0 1\n\ns off\nusemtl red\n"
                            "f 1 2 3\nf 1/1 3/1 4/1 # half\nf 1//1 2//1 4//1\nf -4/1/1 -3/1/1 -1/1/1\n");
     ASSERT_EQ(read.vertices.size(), 4U);
