@@ -8,10 +8,12 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "core/portable_math.hpp"
 #include "scene/gadget2.hpp"
+#include "scene/text_lines.hpp"
 
 namespace slod::cost {
 namespace {
@@ -133,6 +135,8 @@ std::variant<ParticleSet, Problems> read_text(const std::filesystem::path& file)
                         why};
     };
     for (std::size_t number = 1; std::getline(stream, line); ++number) {
+        if (number == 1)
+            drop_byte_order_mark(line);
         if (const auto first = line.find_first_not_of(" \t\r"); first == line.npos || line[first] == '#')
             continue;
         std::array<double, 4> numbers{};
@@ -190,6 +194,25 @@ std::variant<ParticleSet, Problems> read_bodies(const std::filesystem::path& fil
     if (!std::ifstream(file))
         return Problems{file.string() + ": cannot be read; check its permissions."};
     return is_gadget2(file) ? read_snapshot(file) : read_text(file);
+}
+
+std::variant<ParticleSet, Problems> bodies_of(const std::string& model_or_file,
+                                              std::optional<std::size_t> count,
+                                              std::optional<std::uint64_t> seed)
+{
+    if (const CloudModel* const model = cloud_model(model_or_file))
+        return cloud(count.value_or(100'000), seed.value_or(1), model->place);
+    std::error_code error;
+    if (std::filesystem::status(model_or_file, error).type() == std::filesystem::file_type::not_found) {
+        std::string names;
+        for (const CloudModel& known : models)
+            names += (names.empty() ? "" : ", ") + std::string(known.name);
+        return Problems{model_or_file + ": there is no such file; models without one are " + names + "."};
+    }
+    if (count || seed)
+        return Problems{model_or_file + ": a number of bodies and a seed are of models without a file; leave "
+                                        "--n and --seed out, or name such a model."};
+    return read_bodies(model_or_file);
 }
 
 } // namespace slod::cost

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -36,5 +38,11 @@ inline constexpr std::size_t max_text_bodies = 100'000'000;
 /// separated by blanks or commas; lines that are empty or begin with # are passed over. A problem names the
 /// file, the line and what to do.
 std::variant<ParticleSet, Problems> read_bodies(const std::filesystem::path& file);
+
+/// The bodies of a model, 100,000 of seed 1 unless asked for otherwise; or those of the file of that name,
+/// where it is a problem to ask for a number or a seed.
+std::variant<ParticleSet, Problems> bodies_of(const std::string& model_or_file,
+                                              std::optional<std::size_t> count,
+                                              std::optional<std::uint64_t> seed);
 
 } // namespace slod::cost

@@ -14,21 +14,6 @@
 namespace slod::cost {
 namespace {
 
-std::variant<ParticleSet, Problems> make_bodies(const std::string& model, std::size_t count,
-                                                std::uint64_t seed)
-{
-    if (const CloudModel* const known = cloud_model(model))
-        return cloud(count, seed, known->place);
-    auto read = read_bodies(model);
-    if (auto* const problems = std::get_if<Problems>(&read); problems && !std::filesystem::exists(model)) {
-        std::string names;
-        for (const CloudModel& known : cloud_models())
-            names += (names.empty() ? "" : ", ") + std::string(known.name);
-        problems->push_back("Models without a file are " + names + ".");
-    }
-    return read;
-}
-
 /// A line "ax ay az" for each body, in their order.
 void write_accelerations(const std::filesystem::path& file, const std::vector<Vector3d>& accelerations)
 {
@@ -86,7 +71,7 @@ ForcesCommand::ForcesCommand(CLI::App& app)
 
 int ForcesCommand::run() const
 {
-    const auto bodies = make_bodies(model_, count_, seed_);
+    const auto bodies = bodies_of(model_, count_, seed_);
     if (const auto* problems = std::get_if<Problems>(&bodies))
         return complain(*problems);
     ForceReport report;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -23,12 +24,12 @@ private:
 
     CLI::App* command_;
     std::string model_ = "plummer";
-    std::size_t count_ = 100'000;
+    std::optional<std::size_t> count_; ///< bodies; none: not given
     double softening_ = 0.01;
     double accuracy_ = 0, theta_ = 0, tolerance_ = 0; ///< 0: not given
     int threads_ = 0;
     int repeats_ = 5;
-    std::uint64_t seed_ = 1;
+    std::optional<std::uint64_t> seed_; ///< none: not given
     std::filesystem::path accelerations_;
     bool as_json_ = false;
 };

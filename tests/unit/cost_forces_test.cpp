@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -70,7 +71,7 @@ protected:
 
 TEST_F(BodiesFile, IsReadALineABody)
 {
-    const auto result = read("# x y z mass\n1 2 3 0.5\n\n -1e3,0, 4\t2\r\n");
+    const auto result = read("\xEF\xBB\xBF# x y z mass\n1 2 3 0.5\n\n -1e3,0, 4\t2\r\n");
     ASSERT_TRUE(std::holds_alternative<ParticleSet>(result)) << std::get<Problems>(result).front();
     const auto& bodies = std::get<ParticleSet>(result);
     ASSERT_EQ(bodies.size(), 2);
@@ -99,6 +100,36 @@ TEST_F(BodiesFile, ThatIsNotThereIsNamed)
     ASSERT_TRUE(std::holds_alternative<Problems>(missing));
     EXPECT_EQ(std::get<Problems>(missing).front().find((folder_.path() / "none").string()), 0);
     EXPECT_TRUE(std::holds_alternative<Problems>(read_bodies(folder_.path())));
+}
+
+TEST_F(BodiesFile, HasItsOwnNumberOfBodies)
+{
+    const auto problem_with = [&](auto count, auto seed) {
+        const auto bodies = bodies_of(file_.string(), count, seed);
+        const auto* problems = std::get_if<Problems>(&bodies);
+        return problems != nullptr ? problems->front() : "";
+    };
+    EXPECT_EQ(problem_with(std::nullopt, std::nullopt),
+              file_.string() + ": there is no such file; models without one are plummer, clumps, disc, box.");
+    write_file(file_, "1 2 3 4\n");
+    EXPECT_EQ(problem_with(std::nullopt, std::nullopt), "");
+    for (const std::string& problem :
+         {problem_with(std::optional(1), std::nullopt), problem_with(std::nullopt, std::optional(2))})
+        EXPECT_NE(problem.find(": a number of bodies and a seed are of models without a file"), problem.npos);
+}
+
+TEST(CostBodies, OfAModelAreAsManyAsAskedForAndOthersWithAnotherSeed)
+{
+    EXPECT_EQ(std::get<ParticleSet>(bodies_of("box", {}, {})).size(), 100'000U);
+    EXPECT_EQ(std::get<ParticleSet>(bodies_of("box", 1, {}))[0].position,
+              std::get<ParticleSet>(bodies_of("box", 1, 1))[0].position);
+    const auto first = [](std::uint64_t seed) {
+        const auto bodies = std::get<ParticleSet>(bodies_of("box", 7, seed));
+        EXPECT_EQ(bodies.size(), 7U);
+        return bodies[0].position;
+    };
+    EXPECT_EQ(first(1), first(1));
+    EXPECT_NE(first(1), first(2));
 }
 
 TEST(CostForces, OfAPairAreNewtons)
