@@ -1,4 +1,5 @@
-// Pairs per second of the gravity kernels, one thread, by kernel, precision and instruction set.
+// What the kernels do in a second on one thread: pairs of the gravity kernels by precision, numbers and terms
+// of waves of the others; by instruction set.
 
 #include <algorithm>
 #include <array>
@@ -73,9 +74,9 @@ struct Arrays {
     }
 };
 
-/// Pairs per second of the best of some rounds: what disturbs only ever slows.
+/// Calls per second of the best of some rounds: what disturbs only ever slows.
 template <class Kernel>
-double pairs_per_second(const Kernel& kernel)
+double calls_per_second(const Kernel& kernel)
 {
     using Clock = std::chrono::steady_clock;
     double best = 0;
@@ -88,9 +89,15 @@ double pairs_per_second(const Kernel& kernel)
             ++calls;
             spent = Clock::now() - start;
         } while (spent < round_length);
-        best = std::max(best, calls * target_count * source_count / spent.count());
+        best = std::max(best, calls / spent.count());
     }
     return best;
+}
+
+template <class Kernel>
+double pairs_per_second(const Kernel& kernel)
+{
+    return double(target_count * source_count) * calls_per_second(kernel);
 }
 
 template <class Real>
@@ -113,6 +120,51 @@ nlohmann::ordered_json measure(const KernelTable& table)
     };
 }
 
+/// A block of newborns' random numbers and directions, and turbulence at a block of places.
+nlohmann::ordered_json measure_others(const KernelTable& table)
+{
+    constexpr std::size_t count = 512, waves = 64, places = 64;
+    std::array<std::vector<double>, 4> numbers;
+    numbers.fill(std::vector<double>(count, 0.5));
+    std::array<std::vector<double>, 8> of_waves;
+    of_waves.fill(std::vector<double>(waves, 0.7));
+    std::array<std::vector<double>, 15> at_places;
+    at_places.fill(std::vector<double>(places, 0.3));
+    const auto array = [](auto& all, std::size_t i) { return all[i].data(); };
+    const Waves sum{waves,
+                    {array(of_waves, 0), array(of_waves, 1), array(of_waves, 2)},
+                    {array(of_waves, 3), array(of_waves, 4), array(of_waves, 5)},
+                    array(of_waves, 6),
+                    array(of_waves, 7)};
+    const auto place = [&](std::size_t i) { return array(at_places, i); };
+    const WavePlaces at{places,
+                        {place(0), place(1), place(2)},
+                        {place(3), place(4), place(5)},
+                        {{place(6), place(7), place(8)},
+                         {place(9), place(10), place(11)},
+                         {place(12), place(13), place(14)}}};
+    return {
+        {"uniform_numbers",
+         2 * count * calls_per_second([&] {
+             table.numbers.fill_uniforms({{1, 2}, 3, 4, count}, 0, array(numbers, 0), array(numbers, 1));
+         })},
+        {"sines_and_cosines", count * calls_per_second([&] {
+                                  table.numbers.sines_and_cosines(array(numbers, 0), count, array(numbers, 2),
+                                                                  array(numbers, 3));
+                              })},
+        {"terms_of_waves", waves * places * calls_per_second([&] { table.waves.sum_up(sum, at); })},
+    };
+}
+
+/// The names of what is in `rates`, in columns as print_row() has them.
+void print_head(const nlohmann::ordered_json& rates)
+{
+    std::printf("%-10s %-10s", "isa", "precision");
+    for (const auto& [kernel, rate] : rates.items())
+        std::printf(" %22s", kernel.c_str());
+    std::printf("\n");
+}
+
 void print_row(const char* isa, const char* precision, const nlohmann::ordered_json& rates)
 {
     std::printf("%-10s %-10s", isa, precision);
@@ -125,24 +177,33 @@ void print_row(const char* isa, const char* precision, const nlohmann::ordered_j
 
 int main(int argc, char** argv)
 {
-    CLI::App app("Measures the gravity kernels: 1e9 pairs per second, one thread.");
+    CLI::App app("Measures the kernels: 1e9 pairs, numbers and terms of waves per second, one thread.");
     bool as_json = false;
-    app.add_flag("--json", as_json, "Print the pairs per second as one JSON object on the last line, too.");
+    app.add_flag("--json", as_json,
+                 "Print what is done in a second as one JSON object on the last line, too.");
     CLI11_PARSE(app, argc, argv);
 
-    nlohmann::ordered_json rates;
-    std::printf("%-10s %-10s %22s %22s %22s %22s %22s\n", "isa", "precision", "acceleration",
-                "acceleration_and_tide", "nodes", "nodes_and_tide", "potential");
+    nlohmann::ordered_json rates, others;
     for (const KernelTable* table : runnable_kernels()) {
         auto& in = rates[table->name];
-        print_row(table->name, "float", in["float"] = measure<float>(*table));
-        print_row(table->name, "double", in["double"] = measure<double>(*table));
+        in["float"] = measure<float>(*table);
+        in["double"] = measure<double>(*table);
+        others[table->name] = measure_others(*table);
     }
+    const char* const fastest = kernels().name;
+    print_head(rates[fastest]["float"]);
+    for (const auto& [isa, of] : rates.items()) {
+        print_row(isa.c_str(), "float", of["float"]);
+        print_row(isa.c_str(), "double", of["double"]);
+    }
+    print_head(others[fastest]);
+    for (const auto& [isa, of] : others.items())
+        print_row(isa.c_str(), "double", of);
     if (as_json) {
         const nlohmann::ordered_json report = {
-            {"benchmark", "kernels"},    {"threads", 1},
-            {"targets", target_count},   {"sources", source_count},
-            {"fastest", kernels().name}, {"interactions_per_second", rates}};
+            {"benchmark", "kernels"},     {"threads", 1},       {"targets", target_count},
+            {"sources", source_count},    {"fastest", fastest}, {"interactions_per_second", rates},
+            {"others_per_second", others}};
         std::printf("%s\n", report.dump().c_str());
     }
 }
