@@ -50,7 +50,8 @@ struct Propagator {
     Vector3d shift{0, 0, 0};
     Vector3d gain{0, 0, 0};
 
-    void apply(Vector3d& position, Vector3d& velocity) const
+    /// In the innermost loop of frames without clusters, where a call takes a fifth of the time.
+    [[gnu::always_inline]] void apply(Vector3d& position, Vector3d& velocity) const
     {
         position += drift * velocity + shift;
         velocity += decay_minus_1 * velocity + gain;
