@@ -94,7 +94,8 @@ void Alarms::weigh_all(const AlarmSettings& limits, const ControlReport& regulat
     weigh("impacts_cut_off", Warning,
           counted(events_.impacts_cut_off,
                   "flights had more impacts in a frame than are followed, and ended on "
-                  "a surface; use a smaller time.step."));
+                  "a surface. That is right where they rest in a corner; where they fly "
+                  "between surfaces, use a smaller time.step."));
     const bool unreachable = regulation.state == ControlState::Unreachable;
     weigh("unreachable", Warning,
           {1, unreachable ? "The frame rate or error asked for is out of reach; ask for less, or widen what "
