@@ -16,10 +16,11 @@ constexpr double band = 0.1;       ///< of the error's logarithm about its targe
 constexpr double leave = 0.15;     ///< and above which it no longer does, by a full window
 constexpr double most_rise = 0.06; ///< of the logarithm of the size in a frame
 constexpr double most_turn = 0.7;  ///< of the same at once
-/// Logarithm of the size by which one of the error is answered. Errors go with a power of the size between
-/// 0.3 and 1.2 (flow maps, galaxies and pairs of them): a turn leaves a fifth to seven tenths of the
-/// difference.
-constexpr double gain = 1;
+constexpr double narrowest = 0.02; ///< of two sizes that something is looked for between
+/// Power of the size that an error is taken to go with, until two sizes that are so far apart have said more.
+/// It is between 0.3 and 1.2 (flow maps, galaxies and pairs of them), so that a turn leaves a fifth to seven
+/// tenths of the difference, and 6 between single particles and pairs.
+constexpr double least_power = 1, most_power = 8, apart = 0.05;
 /// Largest difference of sizes at which clusters count as still, and frames that they have to be so before
 /// samples count: merges come in rounds of 16 frames.
 constexpr double still_size = 1e-3;
@@ -39,7 +40,8 @@ double still_crowding(double clusters)
 ErrorController::ErrorController(const ControlSettings& settings, const ControlScope& scope,
                                  const Detail& detail)
     : settings_(settings), scope_(scope), frame_rate_(settings, scope, detail), errors_(window),
-      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), detail_(detail), same_size_(goal_)
+      judged_size_(std::log(detail.cluster_size)), goal_(std::log(detail.cluster_size)), floor_(goal_),
+      size_(goal_), detail_(detail), same_size_(goal_)
 {}
 
 void ErrorController::set_scope(const ControlScope& scope)
@@ -107,6 +109,30 @@ bool ErrorController::take_samples(const FrameWork& work)
     return errors_.size() > before || (errors_.size() == window && !work.errors.empty());
 }
 
+void ErrorController::Bracket::note(double size, double excess)
+{
+    constexpr double none = std::numeric_limits<double>::infinity();
+    if (excess > 0) {
+        coarse = size;
+        fine = fine < size ? fine : -none;
+    } else {
+        const bool again = std::abs(size - fine) < still_size;
+        coarse = coarse > size && !(again && excess < fine_excess - leave) ? coarse : none;
+        fine_excess = again ? fine_excess : excess;
+        fine = size;
+    }
+}
+
+double ErrorController::Bracket::within(double size) const
+{
+    return (fine < size && size < coarse) || !std::isfinite(coarse - fine) ? size : 0.5 * (fine + coarse);
+}
+
+bool ErrorController::Bracket::narrow() const
+{
+    return coarse - fine < narrowest;
+}
+
 void ErrorController::turn_goal()
 {
     if (errors_.size() < enough_afar)
@@ -121,12 +147,34 @@ void ErrorController::turn_goal()
     if (by_chance || std::abs(excess) < (resting ? leave : band)) {
         state_ = ControlState::Holding;
         goal_ = size_;
+        if (errors_.size() == window) // it is no chance that it is held
+            bracket_ = {};
+        return;
+    }
+    turn_by(excess);
+}
+
+double ErrorController::learn_power(double excess)
+{
+    const double turned = size_ - std::exchange(judged_size_, size_);
+    const double changed = excess - std::exchange(judged_excess_, excess);
+    if (std::abs(turned) > apart)
+        power_ = std::clamp(changed / turned, least_power, most_power);
+    return power_;
+}
+
+void ErrorController::turn_by(double excess)
+{
+    bracket_.note(size_, excess);
+    if (bracket_.narrow()) { // the error jumps from below its target to above: it is kept below
+        goal_ = bracket_.fine;
+        state_ = excess < 0 ? ControlState::Holding : ControlState::Adjusting;
         return;
     }
     const SizeFactors sizes = size_factors(settings_, scope_);
     const double least = std::log(sizes.least), most = std::log(sizes.most);
-    const double wanted = size_ - std::clamp(gain * excess, -most_turn, most_turn);
-    goal_ = std::clamp(wanted, least, most);
+    const double wanted = size_ - std::clamp(excess / learn_power(excess), -most_turn, most_turn);
+    goal_ = std::clamp(bracket_.within(wanted), least, most);
     if (excess > 0 && size_ <= least)
         state_ = ControlState::Unreachable;
     else

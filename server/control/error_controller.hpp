@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "control/controller.hpp"
 #include "control/smooth_controller.hpp"
@@ -15,7 +16,9 @@ namespace slod {
 /// Errors come in samples. It waits until enough have been drawn since clusters followed the last turn, or
 /// have had time to where their number is never still, and turns again only when the target is outside the
 /// interval that holds the median with 95 % probability and further than the band within which it rests: so
-/// chance moves nothing for long, and there is no limit cycle.
+/// chance moves nothing for long. A turn that goes past what is known of the other side of the target goes
+/// half way there instead, so that there is no limit cycle either, however steeply the error grows with the
+/// size.
 class ErrorController final : public Controller {
 public:
     ErrorController(const ControlSettings& settings, const ControlScope& scope, const Detail& detail);
@@ -25,16 +28,34 @@ public:
     void set_scope(const ControlScope& scope) override;
 
 private:
+    /// Sizes between which the one wanted is, as far as the error has been judged.
+    struct Bracket {
+        double fine = -std::numeric_limits<double>::infinity();  ///< the error was below its target there
+        double coarse = std::numeric_limits<double>::infinity(); ///< and above it here
+        double fine_excess = 0;                                  ///< what it was there at first
+
+        /// `excess`: logarithm of the error over its target. An older end that contradicts it is forgotten,
+        /// and that above the target where the error has become smaller below.
+        void note(double size, double excess);
+        double within(double size) const; ///< `size`, or the middle where that is outside
+        bool narrow() const;              ///< there is no size between them
+    };
+
     void note_size(const FrameWork& work);
     bool followed() const;                    ///< the clusters have, what was turned last
     bool take_samples(const FrameWork& work); ///< false: none came that counts
     void turn_goal();
+    void turn_by(double excess);
+    double learn_power(double excess); ///< of the size, that the error goes with
 
     ControlSettings settings_;
     ControlScope scope_;
     SmoothController frame_rate_; ///< turns the sizes, between what the error allows and the largest
     ErrorWindow errors_;          ///< of frames in which clusters were as they are
     ControlState state_ = ControlState::Adjusting; ///< of the error's target
+    Bracket bracket_;                              ///< since it was last held for sure
+    double power_ = 1;                             ///< of the size, in the error
+    double judged_size_, judged_excess_ = 0;       ///< what that was learned from, when last a turn was made
     bool exceeded_ = false;                        ///< it was above that when it was last judged
     bool yields_ = false;                          ///< it is, to hold the frame rate
 

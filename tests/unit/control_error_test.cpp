@@ -25,7 +25,13 @@ struct ErrorPlant {
     std::uint64_t drawn = 0;
 
     double size() const { return plant.particles / plant.clusters; }
-    double median() const { return error_at_64 * std::pow(size() / 64, power); }
+    double jump_at = 1e30; ///< size from which on errors are
+    double jump = 1;       ///< so many times larger
+
+    double median() const
+    {
+        return error_at_64 * std::pow(size() / 64, power) * (size() < jump_at ? 1 : jump);
+    }
 
     std::vector<ErrorSample> draw()
     {
@@ -92,6 +98,42 @@ TEST(ErrorControl, BringsTheMedianWithinAFifthOfTheTarget)
                 EXPECT_GE(outcome.held, 0.95);
                 EXPECT_GE(outcome.holding, 0.5);
             }
+}
+
+// As between single particles and pairs in a galaxy: a turn by the whole excess would go to and fro for ever.
+TEST(ErrorControl, FindsTheSizeWhereErrorsGrowSteeply)
+{
+    for (const double power : {2.5, 4.0}) {
+        SCOPED_TRACE(power);
+        ErrorPlant plant{.power = power};
+        const Outcome outcome = run(plant, holding(0.008, ControlPriority::Error), target_ms, 3000);
+        EXPECT_GE(outcome.held, 0.95);
+        EXPECT_GE(outcome.holding, 0.95);
+    }
+}
+
+TEST(ErrorControl, KeepsTheErrorBelowATargetThatItJumpsOver)
+{
+    ErrorPlant plant{.jump_at = 30, .jump = 3}; // from 0.0127 to 0.038
+    const Outcome outcome = run(plant, holding(0.02, ControlPriority::Error), target_ms, 4000);
+    EXPECT_LT(plant.size(), 30);
+    EXPECT_GT(plant.size(), 28.5);
+    EXPECT_EQ(outcome.moves, 0);
+    EXPECT_EQ(outcome.state, ControlState::Holding);
+}
+
+TEST(ErrorControl, LooksAnewWhereWhatItJumpedOverIsGone)
+{
+    ErrorPlant plant{.jump_at = 30, .jump = 3};
+    const Outcome outcome =
+        run(plant, holding(0.02, ControlPriority::Error), target_ms, 8000, [&](int frame) {
+            if (frame == 4000) {
+                plant.jump = 1;
+                plant.error_at_64 = 0.01;
+            }
+        });
+    EXPECT_GT(plant.size(), 150); // where there is 0.017
+    EXPECT_EQ(outcome.state, ControlState::Holding);
 }
 
 TEST(ErrorControl, RestsOnceItIsThere)
