@@ -16,6 +16,7 @@ constexpr double band = 0.1;       ///< of the error's logarithm about its targe
 constexpr double leave = 0.15;     ///< and above which it no longer does, by a full window
 constexpr double most_rise = 0.06; ///< of the logarithm of the size in a frame
 constexpr double most_turn = 0.7;  ///< of the same at once
+constexpr double most_excess = 10; ///< of the error's logarithm over its target's; there may be none at all
 constexpr double narrowest = 0.02; ///< of two sizes that something is looked for between
 /// Power of the size that an error is taken to go with, until two sizes that are so far apart have said more.
 /// It is between 0.3 and 1.2 (flow maps, galaxies and pairs of them), so that a turn leaves a fifth to seven
@@ -138,7 +139,8 @@ void ErrorController::turn_goal()
     if (errors_.size() < enough_afar)
         return;
     const ErrorQuantile median = errors_.estimate().median;
-    const double excess = std::log(median.value / settings_.target_error);
+    const double excess =
+        std::clamp(std::log(median.value / settings_.target_error), -most_excess, most_excess);
     const bool resting = state_ == ControlState::Holding;
     if (errors_.size() < (resting ? window : enough) && std::abs(excess) < afar)
         return;

@@ -166,6 +166,14 @@ TEST(ErrorControl, GivesUpTheTargetThatDoesNotGoFirst)
     EXPECT_EQ(error_first.state, ControlState::Holding);
 }
 
+TEST(ErrorControl, LetsClustersGrowWhereThereIsNoErrorAtAll)
+{
+    ErrorPlant plant{.error_at_64 = 0};
+    const Outcome outcome = run(plant, holding(0.01, ControlPriority::Error), target_ms);
+    EXPECT_EQ(outcome.state, ControlState::Holding);
+    EXPECT_NEAR(plant.size(), ControlSettings{}.largest_cluster_size, 0.01 * plant.size());
+}
+
 TEST(ErrorControl, SaysWhenTheFinestIsNotAccurateEnough)
 {
     ErrorPlant plant{.power = 0.3};
