@@ -41,8 +41,8 @@ double still_crowding(double clusters)
 ErrorController::ErrorController(const ControlSettings& settings, const ControlScope& scope,
                                  const Detail& detail)
     : settings_(settings), scope_(scope), frame_rate_(settings, scope, detail), errors_(window),
-      judged_size_(std::log(detail.cluster_size)), goal_(std::log(detail.cluster_size)), floor_(goal_),
-      size_(goal_), detail_(detail), same_size_(goal_)
+      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), judged_size_(goal_), detail_(detail),
+      same_size_(goal_)
 {}
 
 void ErrorController::set_scope(const ControlScope& scope)

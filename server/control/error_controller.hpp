@@ -54,15 +54,16 @@ private:
     ErrorWindow errors_;          ///< of frames in which clusters were as they are
     ControlState state_ = ControlState::Adjusting; ///< of the error's target
     Bracket bracket_;                              ///< since it was last held for sure
-    double power_ = 1;                             ///< of the size, in the error
-    double judged_size_, judged_excess_ = 0;       ///< what that was learned from, when last a turn was made
     bool exceeded_ = false;                        ///< it was above that when it was last judged
     bool yields_ = false;                          ///< it is, to hold the frame rate
 
     // Logarithms of the factor of all cluster sizes.
-    double goal_;  ///< that the error allows
-    double floor_; ///< the same, as it is approached
-    double size_;  ///< that was asked for in the last frame
+    double goal_;              ///< that the error allows
+    double floor_;             ///< the same, as it is approached
+    double size_;              ///< that was asked for in the last frame
+    double judged_size_;       ///< when last a turn was made
+    double judged_excess_ = 0; ///< the error's over its target then
+    double power_ = 1;         ///< of the size, in the error, as these and the next turn say
 
     Detail detail_; ///< the last
 

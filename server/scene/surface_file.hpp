@@ -28,8 +28,8 @@ std::variant<Mesh, Problems> read_heights(const std::filesystem::path& file);
 /// y z" of the place of the first sample, whose coordinates are the lowest, one of the spacing, and then as
 /// many distances in any lines, x fastest, then y, then z, below 0 inside. What follows a # is passed over.
 /// The mesh is the zero level. Refuses likewise, and grids of more than 2^25 samples, whose samples are
-/// nearer to each other than a billionth of a coordinate, or whose
-/// distances have no surface between inside and outside.
+/// nearer to each other than a billionth of a coordinate, or whose distances have no surface between inside
+/// and outside.
 std::variant<Mesh, Problems> read_distance_grid(const std::filesystem::path& file);
 
 } // namespace slod
