@@ -15,13 +15,7 @@ constexpr double afar = 0.5;            ///< such a difference of logarithms
 constexpr double band = 0.1;       ///< of the error's logarithm about its target's, within which it rests
 constexpr double leave = 0.15;     ///< and above which it no longer does, by a full window
 constexpr double most_rise = 0.06; ///< of the logarithm of the size in a frame
-constexpr double most_turn = 0.7;  ///< of the same at once
 constexpr double most_excess = 10; ///< of the error's logarithm over its target's; there may be none at all
-constexpr double narrowest = 0.02; ///< of two sizes that something is looked for between
-/// Power of the size that an error is taken to go with, until two sizes that are so far apart have said more.
-/// It is between 0.3 and 1.2 (flow maps, galaxies and pairs of them), so that a turn leaves a fifth to seven
-/// tenths of the difference, and 6 between single particles and pairs.
-constexpr double least_power = 1, most_power = 8, apart = 0.05;
 /// Largest difference of sizes at which clusters count as still, and frames that they have to be so before
 /// samples count: merges come in rounds of 16 frames.
 constexpr double still_size = 1e-3;
@@ -41,14 +35,13 @@ double still_crowding(double clusters)
 ErrorController::ErrorController(const ControlSettings& settings, const ControlScope& scope,
                                  const Detail& detail)
     : settings_(settings), scope_(scope), frame_rate_(settings, scope, detail), errors_(window),
-      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), judged_size_(goal_), detail_(detail),
-      same_size_(goal_)
+      goal_(std::log(detail.cluster_size)), floor_(goal_), size_(goal_), detail_(detail), same_size_(goal_)
 {}
 
 void ErrorController::set_scope(const ControlScope& scope)
 {
     scope_ = scope;
-    same_frames_ = still_frames_ = 0;
+    forget();
     frame_rate_.set_scope(scope);
 }
 
@@ -65,8 +58,14 @@ Detail ErrorController::next(const FrameWork& work)
     yields_ = exceeded_ && std::isfinite(asked.target_ms) && frame_rate_.output() > floor_ + still_size;
     const Detail before = std::exchange(detail_, frame_rate_.next(asked));
     if (before.opening != detail_.opening || before.life != detail_.life || before.breadth != detail_.breadth)
-        same_frames_ = still_frames_ = 0; // these make an error, too
+        forget(); // these make an error, too
     return detail_;
+}
+
+void ErrorController::forget()
+{
+    same_frames_ = still_frames_ = 0;
+    search_ = {};
 }
 
 ControlState ErrorController::state() const
@@ -110,30 +109,6 @@ bool ErrorController::take_samples(const FrameWork& work)
     return errors_.size() > before || (errors_.size() == window && !work.errors.empty());
 }
 
-void ErrorController::Bracket::note(double size, double excess)
-{
-    constexpr double none = std::numeric_limits<double>::infinity();
-    if (excess > 0) {
-        coarse = size;
-        fine = fine < size ? fine : -none;
-    } else {
-        const bool again = std::abs(size - fine) < still_size;
-        coarse = coarse > size && !(again && excess < fine_excess - leave) ? coarse : none;
-        fine_excess = again ? fine_excess : excess;
-        fine = size;
-    }
-}
-
-double ErrorController::Bracket::within(double size) const
-{
-    return (fine < size && size < coarse) || !std::isfinite(coarse - fine) ? size : 0.5 * (fine + coarse);
-}
-
-bool ErrorController::Bracket::narrow() const
-{
-    return coarse - fine < narrowest;
-}
-
 void ErrorController::turn_goal()
 {
     if (errors_.size() < enough_afar)
@@ -142,7 +117,8 @@ void ErrorController::turn_goal()
     const double excess =
         std::clamp(std::log(median.value / settings_.target_error), -most_excess, most_excess);
     const bool resting = state_ == ControlState::Holding;
-    if (errors_.size() < (resting ? window : enough) && std::abs(excess) < afar)
+    const std::size_t asked = resting ? window : std::abs(excess) < afar ? enough : enough_afar;
+    if (errors_.size() < asked)
         return;
     const bool by_chance = median.low <= settings_.target_error && settings_.target_error <= median.high;
     exceeded_ = excess > 0 && !by_chance;
@@ -150,37 +126,23 @@ void ErrorController::turn_goal()
         state_ = ControlState::Holding;
         goal_ = size_;
         if (errors_.size() == window) // it is no chance that it is held
-            bracket_ = {};
+            search_.held();
         return;
     }
     turn_by(excess);
 }
 
-double ErrorController::learn_power(double excess)
-{
-    const double turned = size_ - std::exchange(judged_size_, size_);
-    const double changed = excess - std::exchange(judged_excess_, excess);
-    if (std::abs(turned) > apart)
-        power_ = std::clamp(changed / turned, least_power, most_power);
-    return power_;
-}
-
 void ErrorController::turn_by(double excess)
 {
-    bracket_.note(size_, excess);
-    if (bracket_.narrow()) { // the error jumps from below its target to above: it is kept below
-        goal_ = bracket_.fine;
-        state_ = excess < 0 ? ControlState::Holding : ControlState::Adjusting;
-        return;
-    }
     const SizeFactors sizes = size_factors(settings_, scope_);
     const double least = std::log(sizes.least), most = std::log(sizes.most);
-    const double wanted = size_ - std::clamp(excess / learn_power(excess), -most_turn, most_turn);
-    goal_ = std::clamp(bracket_.within(wanted), least, most);
+    goal_ = std::clamp(search_.next(size_, excess), least, most);
     if (excess > 0 && size_ <= least)
         state_ = ControlState::Unreachable;
+    else if (excess < 0 && (size_ >= most || search_.kept_below_jump()))
+        state_ = ControlState::Holding;
     else
-        state_ = excess < 0 && size_ >= most ? ControlState::Holding : ControlState::Adjusting;
+        state_ = ControlState::Adjusting;
 }
 
 } // namespace slod

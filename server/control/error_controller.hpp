@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "control/controller.hpp"
+#include "control/size_search.hpp"
 #include "control/smooth_controller.hpp"
 #include "meter/error_window.hpp"
 
@@ -16,9 +16,7 @@ namespace slod {
 /// Errors come in samples. It waits until enough have been drawn since clusters followed the last turn, or
 /// have had time to where their number is never still, and turns again only when the target is outside the
 /// interval that holds the median with 95 % probability and further than the band within which it rests: so
-/// chance moves nothing for long. A turn that goes past what is known of the other side of the target goes
-/// half way there instead, so that there is no limit cycle either, however steeply the error grows with the
-/// size.
+/// chance moves nothing for long. Where to is the matter of `SizeSearch`.
 class ErrorController final : public Controller {
 public:
     ErrorController(const ControlSettings& settings, const ControlScope& scope, const Detail& detail);
@@ -28,42 +26,26 @@ public:
     void set_scope(const ControlScope& scope) override;
 
 private:
-    /// Sizes between which the one wanted is, as far as the error has been judged.
-    struct Bracket {
-        double fine = -std::numeric_limits<double>::infinity();  ///< the error was below its target there
-        double coarse = std::numeric_limits<double>::infinity(); ///< and above it here
-        double fine_excess = 0;                                  ///< what it was there at first
-
-        /// `excess`: logarithm of the error over its target. An older end that contradicts it is forgotten,
-        /// and that above the target where the error has become smaller below.
-        void note(double size, double excess);
-        double within(double size) const; ///< `size`, or the middle where that is outside
-        bool narrow() const;              ///< there is no size between them
-    };
-
     void note_size(const FrameWork& work);
     bool followed() const;                    ///< the clusters have, what was turned last
     bool take_samples(const FrameWork& work); ///< false: none came that counts
     void turn_goal();
     void turn_by(double excess);
-    double learn_power(double excess); ///< of the size, that the error goes with
+    void forget(); ///< what was learned of other clusters, or at another detail
 
     ControlSettings settings_;
     ControlScope scope_;
     SmoothController frame_rate_; ///< turns the sizes, between what the error allows and the largest
     ErrorWindow errors_;          ///< of frames in which clusters were as they are
     ControlState state_ = ControlState::Adjusting; ///< of the error's target
-    Bracket bracket_;                              ///< since it was last held for sure
+    SizeSearch search_;                            ///< since it was last held for sure
     bool exceeded_ = false;                        ///< it was above that when it was last judged
     bool yields_ = false;                          ///< it is, to hold the frame rate
 
     // Logarithms of the factor of all cluster sizes.
-    double goal_;              ///< that the error allows
-    double floor_;             ///< the same, as it is approached
-    double size_;              ///< that was asked for in the last frame
-    double judged_size_;       ///< when last a turn was made
-    double judged_excess_ = 0; ///< the error's over its target then
-    double power_ = 1;         ///< of the size, in the error, as these and the next turn say
+    double goal_;  ///< that the error allows
+    double floor_; ///< the same, as it is approached
+    double size_;  ///< that was asked for in the last frame
 
     Detail detail_; ///< the last
 
