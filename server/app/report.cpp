@@ -118,6 +118,7 @@ std::string report(const ReportedRun& run)
         {"clusters", summary.clusters},
         {"state_hash", hash_text(summary.state_hash)},
         {"wall_s", summary.wall_s},
+        {"processor_s", summary.processor_s},
         {"ms_per_frame",
          {{"median", summary.frame_ms.quantile(0.5)}, {"p99", summary.frame_ms.quantile(0.99)}}},
         {"phases", phases_json(run.plan, summary)},

@@ -20,6 +20,7 @@ struct RunSummary {
     std::uint64_t clusters = 0;   ///< at the end
     std::uint64_t state_hash = 0; ///< at the end
     double wall_s = 0;            ///< first frame's start to last frame's end, the pacer's waits included
+    double processor_s = 0;       ///< of all threads of the process, over the same time
     FrameCounts events;           ///< for_each_event() of it: totals over the run
     Vector3d unanswered_force{0, 0, 0}; ///< at the end: Snapshot's
     Losses drained, killed;             ///< by sinks and by colliders, over the run

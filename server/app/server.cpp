@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <string>
 #include <thread>
@@ -74,6 +75,7 @@ RunSummary Server::run(const std::stop_token& stop)
     for (const std::string_view name : alarms_->unwatched(steering_->loop().alarms))
         spdlog::warn("alarms.{} is not watched: nothing is known of it in this scene", name);
     start_ = Clock::now();
+    const std::clock_t processor_start = std::clock();
     spdlog::info("started threads={} isa={} wire={}", threads_, simulation_->isa(), publisher_.has_value());
 
     Pacer pacer(steering_->loop().server.frame_rate, start_);
@@ -91,6 +93,7 @@ RunSummary Server::run(const std::stop_token& stop)
     steering_->repeat_rest(summary.frames + 1, team_);
 
     summary.wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
+    summary.processor_s = double(std::clock() - processor_start) / CLOCKS_PER_SEC;
     const Alarms::Start at_end = measure_conserved();
     summary.conserved_end = at_end.conserved;
     alarms_->look_at_end(at_end, steering_->loop().alarms, steering_->regulation());

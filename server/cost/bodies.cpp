@@ -105,23 +105,34 @@ std::variant<ParticleSet, Problems> read_snapshot(const std::filesystem::path& f
 /// As of all that a scene may set.
 constexpr double largest_number = 1e30;
 
-/// The numbers of a line; false where something else is in it, or another number of them.
+/// The numbers of a line, with blanks or one comma between them; false where something else is in it, or
+/// another number of them.
 bool read_numbers(std::string_view line, std::array<double, 4>& numbers)
 {
     const char* at = line.data();
     const char* const end = at + line.size();
-    const auto skip = [&] {
-        while (at != end && std::strchr(" \t,\r", *at) != nullptr)
+    const auto skip_blanks = [&] {
+        while (at != end && std::string_view(" \t\r").find(*at) != std::string_view::npos)
             ++at;
     };
+    const auto skip_separator = [&] {
+        const char* const begin = at;
+        skip_blanks();
+        if (at != end && *at == ',')
+            ++at;
+        skip_blanks();
+        return at != begin;
+    };
+    skip_blanks();
     for (double& number : numbers) {
-        skip();
+        if (&number != numbers.data() && !skip_separator())
+            return false;
         const auto read = std::from_chars(at, end, number);
         if (read.ec != std::errc() || !(std::abs(number) <= largest_number))
             return false;
         at = read.ptr;
     }
-    skip();
+    skip_blanks();
     return at == end;
 }
 

@@ -69,6 +69,19 @@ TEST_F(InputLogTest, AnOlderOneIsKept)
     }
 }
 
+TEST_F(InputLogTest, AFolderThatCannotBeMadeIsNamedWithTheRemedy)
+{
+    write_file(scratch_.path() / "file", "");
+    try {
+        InputLogWriter(scratch_.path() / "file" / "made", header_);
+        FAIL() << "no error";
+    } catch (const std::system_error& error) {
+        const std::string text = error.what();
+        EXPECT_EQ(text.find((scratch_.path() / "file" / "made").string()), 0) << text;
+        EXPECT_NE(text.find("name one that can be written to"), std::string::npos) << text;
+    }
+}
+
 TEST_F(InputLogTest, WhatWasWrittenIsReadBack)
 {
     InputLogWriter writer(folder_, header_);

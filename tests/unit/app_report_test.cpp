@@ -94,7 +94,7 @@ TEST(Report, HasThePromisedKeys)
     scene.title = "a scene";
     const nlohmann::json json = reported(scene, summary);
     for (const char* pointer :
-         {"/scene", "/threads", "/isa", "/frames", "/particles", "/clusters", "/state_hash",
+         {"/scene", "/threads", "/isa", "/frames", "/particles", "/clusters", "/state_hash", "/processor_s",
           "/ms_per_frame/median", "/ms_per_frame/p99", "/phases/forces/ms_median", "/drift/mass",
           "/drift/momentum", "/drift/angular_momentum", "/drift/kinetic_energy", "/counts/born",
           "/counts/interactions", "/version", "/settings/time/step"})

@@ -87,7 +87,8 @@ TEST_F(BodiesFile, IsRefusedByTheLine)
     EXPECT_EQ(problem("0 0 0 1\n1 2 3\n"),
               at(2) + "\"1 2 3\" is no body; write its x, y, z and mass, four numbers of at most 1e30.");
     EXPECT_EQ(problem("1 2 3 4 5\n").find(at(1)), 0);
-    EXPECT_EQ(problem("1 2 nan 4\n").find(at(1)), 0);
+    for (const char* const line : {"1 2 nan 4", "1,2,,3,4", "1,2,3,", ",1,2,3", "1.5.5 2 3", "1 2 3 4,"})
+        EXPECT_EQ(problem(line).find(at(1)), 0) << line;
     EXPECT_EQ(problem("1 2 3 4 # mine\n").find(at(1)), 0);
     EXPECT_NE(problem("1 2 3 -4\n").find("has a mass below 0"), std::string::npos);
     EXPECT_EQ(problem("1e308 0 0 1\n").find(at(1)), 0);

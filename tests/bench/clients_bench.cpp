@@ -1,0 +1,170 @@
+// What clients cost a server: its processor time of a frame with readers and commanders, the server on one
+// processor and the clients on another, beside that of a replay of the same run, which has the same commands
+// in the same frames and nobody to talk to.
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <signal.h>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "e2e/wire_support.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Words = std::vector<std::string>;
+using slod::test::Child;
+
+struct Options {
+    std::uint64_t particles = 1'000'000;
+    double frame_rate = 5;
+    std::string subscribers = "64", commanders = "16", seconds = "60";
+    bool best_effort = false;
+    bool json = false;
+};
+
+/// In a session of its own, as Linux shares processors out by session, and on the first processor.
+Words server(Words words)
+{
+    const Words pinned{"/usr/bin/setsid", "/usr/bin/taskset", "-c", "0", SLOD_SERVER};
+    words.insert(words.begin(), pinned.begin(), pinned.end());
+    words.insert(words.end(), {"--threads", "1"});
+    return words;
+}
+
+Json read_json(const std::filesystem::path& file)
+{
+    std::ifstream stream(file);
+    return Json::parse(stream);
+}
+
+/// The last line of what slod-stress prints.
+Json report_of(const Child& load)
+{
+    const std::string output = load.output();
+    const std::size_t last = output.rfind("\n{");
+    if (last == std::string::npos)
+        throw std::runtime_error("slod-stress gave no report: " + load.errors());
+    return Json::parse(output.substr(last));
+}
+
+void expect_end(int code, const std::string& what, const Child& child)
+{
+    if (code != 0)
+        throw std::runtime_error(what + " ended with " + std::to_string(code) + ": " + child.errors());
+}
+
+struct Runs {
+    Json stress, live, replay;
+};
+
+Runs run(const Options& options, const std::filesystem::path& folder)
+{
+    const slod::test::FreeDomain domain;
+    Runs runs;
+    {
+        Child scene(server({SLOD_SCENE, "--domain", domain.text(), "--output-dir", folder / "live",
+                            "--report", folder / "live.json", "--set", "control.mode=off", "--set",
+                            "galaxy.particles=" + std::to_string(options.particles), "--set",
+                            "server.frame_rate=" + std::to_string(options.frame_rate)}));
+        Words words{SLOD_STRESS,
+                    "--domain",
+                    domain.text(),
+                    "--timeout",
+                    "120",
+                    "--cpus",
+                    "1",
+                    "--subscribers",
+                    options.subscribers,
+                    "--commanders",
+                    options.commanders,
+                    "--seconds",
+                    options.seconds,
+                    "--json"};
+        if (options.best_effort)
+            words.insert(words.end(), {"--best-effort", options.subscribers});
+        Child load(words);
+        const int held = load.wait();
+        runs.stress = report_of(load);
+        runs.stress["held"] = held == 0;
+        scene.signal(SIGTERM);
+        expect_end(scene.wait(), "slod-server", scene);
+    }
+    Child replay(server({"--replay", folder / "live" / "input.log", "--free-run", "--no-dds", "--report",
+                         folder / "replay.json"}));
+    expect_end(replay.wait(), "the replay", replay);
+    runs.live = read_json(folder / "live.json");
+    runs.replay = read_json(folder / "replay.json");
+    return runs;
+}
+
+double frame_ms(const Json& report)
+{
+    return 1e3 * report["processor_s"].get<double>() / report["frames"].get<double>();
+}
+
+/// Of all frames of rest and load, by frame.
+double mean(const Json& stress, const char* key)
+{
+    const double rest = stress["rest"]["frames"], load = stress["load"]["frames"];
+    return (rest * stress["rest"][key].get<double>() + load * stress["load"][key].get<double>()) /
+           (rest + load);
+}
+
+Json judge(const Runs& runs)
+{
+    const double live = frame_ms(runs.live), replay = frame_ms(runs.replay);
+    const double encode = mean(runs.stress, "encode_ms");
+    return {{"particles", runs.stress["particles"]},
+            {"clusters", runs.stress["clusters"]},
+            {"subscribers", runs.stress["subscribers"]},
+            {"commanders", runs.stress["commanders"]},
+            {"commands", runs.stress["commands"]["valid"]["commands"]},
+            {"held", runs.stress["held"]},
+            {"frames", runs.live["frames"]},
+            {"same_hash", runs.live["state_hash"] == runs.replay["state_hash"]},
+            {"frame_rate_hz", runs.stress["load"]["frame_rate_hz"]},
+            {"live_ms", live},
+            {"replay_ms", replay},
+            {"encode_ms", encode},
+            {"network_ms", mean(runs.stress, "network_ms")},
+            {"growth_percent", 100 * (live / (replay + encode) - 1)},
+            {"growth_over_rest_percent", runs.stress["processor_growth_percent"]}};
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try {
+    CLI::App app("What clients cost a server, beside the replay of the same run without them");
+    Options options;
+    app.add_option("--particles", options.particles, "Stars of the galaxy [1000000]");
+    app.add_option("--frame-rate", options.frame_rate, "Frames per second [5]");
+    app.add_option("--subscribers", options.subscribers, "Readers [64]");
+    app.add_option("--commanders", options.commanders, "Processes that command [16]");
+    app.add_option("--seconds", options.seconds, "Time under load [60]");
+    app.add_flag("--best-effort", options.best_effort, "Readers do not ask for lost samples");
+    app.add_flag("--json", options.json, "One JSON object on the last line");
+    CLI11_PARSE(app, argc, argv);
+
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("slod-clients-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const Json result = judge(run(options, folder));
+    std::filesystem::remove_all(folder);
+    std::printf("%s\n", result.dump(2).c_str());
+    if (options.json)
+        std::printf("%s\n", result.dump().c_str());
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench-clients: %s\n", error.what());
+    return 1;
+}
