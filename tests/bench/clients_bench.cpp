@@ -98,7 +98,7 @@ Runs run(const Options& options, const std::filesystem::path& folder)
         scene.signal(SIGTERM);
         expect_end(scene.wait(), "slod-server", scene);
     }
-    Child replay(server({"--replay", folder / "live" / "input.log", "--free-run", "--no-dds", "--report",
+    Child replay(server({"--replay", folder / "live" / "input.log", "--domain", domain.text(), "--report",
                          folder / "replay.json"}));
     expect_end(replay.wait(), "the replay", replay);
     runs.live = read_json(folder / "live.json");
@@ -132,6 +132,7 @@ Json judge(const Runs& runs)
             {"frames", runs.live["frames"]},
             {"same_hash", runs.live["state_hash"] == runs.replay["state_hash"]},
             {"frame_rate_hz", runs.stress["load"]["frame_rate_hz"]},
+            {"rest_ms", runs.stress["rest"]["processor_ms"]},
             {"live_ms", live},
             {"replay_ms", replay},
             {"encode_ms", encode},
