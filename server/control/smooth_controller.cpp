@@ -11,6 +11,9 @@ namespace {
 /// work grows faster than the clusters and would swing.
 constexpr double gain_of_fields = 2.75, gain_of_gravity = 0.9;
 constexpr double most_rise = 0.06, most_fall = 0.025; ///< of the output in a frame
+/// Of which there may be so much where the work is further above its target than that, as a logarithm: under
+/// twice the load the fountain's work is within a tenth of its target after 24 frames in place of 30 to 61.
+constexpr double steep_rise = 0.12, far_above = 0.35;
 /// With so much time to spare, and no more growth than that over the foresight, both as logarithms, the
 /// output may fall as fast as it rises.
 constexpr double ample = 0.2, no_growth = 0.05;
@@ -114,7 +117,8 @@ void SmoothController::turn_size(double error, double crowding, double growth, d
         const double gain = scope_.opening ? gain_of_gravity : gain_of_fields;
         const double wanted = fill_ - crowding + gain * error + growth;
         const bool fast = error < -ample && growth < no_growth;
-        output_ += std::clamp(wanted - output_, fast ? -most_rise : -most_fall, most_rise);
+        output_ += std::clamp(wanted - output_, fast ? -most_rise : -most_fall,
+                              error > far_above ? steep_rise : most_rise);
     }
     output_ = std::clamp(output_, least_output(), most_output());
     lagged_ += (output_ - lagged_) / lag_frames;
