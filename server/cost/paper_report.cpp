@@ -65,7 +65,7 @@ std::string line(const Clustered& clustered, const PaperRun& run, const PaperFig
     return text + formatted(" %s %.0f %%\n", name_of(longest).c_str(), 100 * share(clustered, longest));
 }
 
-/// "A, C", of the baselines for which it holds; "none" for none of them.
+/// "A, C", of the baselines for which it holds; "none of them" for none.
 template <class Holds>
 std::string letters(const SpeedUps& found, const Holds& holds)
 {
@@ -73,7 +73,7 @@ std::string letters(const SpeedUps& found, const Holds& holds)
     for (std::size_t i = 0; i < found.over.size(); ++i)
         if (holds(found.over[i]))
             text += (text.empty() ? "" : ", ") + letter(i);
-    return text.empty() ? "none" : text;
+    return text.empty() ? "none of them" : text;
 }
 
 std::string claims(const SpeedUps& found, const PaperFigures& paper)
@@ -81,7 +81,7 @@ std::string claims(const SpeedUps& found, const PaperFigures& paper)
     using Over = SpeedUps::Over;
     std::string text = "  " + name_of(found.motion) + ": all speed-ups are at least the paper's over " +
                        letters(found, [](const Over& over) { return over.at_least; }) +
-                       "\n    A66 clusters pay";
+                       "\n    clusters pay";
     for (std::size_t i = 0; i < found.over.size(); ++i) {
         const std::optional<double>& size = found.over[i].break_even;
         text += std::string(i > 0 ? "," : "") + " over " + letter(i) + " " +
@@ -90,7 +90,7 @@ std::string claims(const SpeedUps& found, const PaperFigures& paper)
     if (paper.break_even)
         text += formatted("; the paper's from %g, which holds over ", *paper.break_even) +
                 letters(found, [](const Over& over) { return over.in_time; });
-    text += formatted("\n    A67 speed-up as size^%.2f; the paper's from ^%.2f", found.exponent,
+    text += formatted("\n    speed-up as size^%.2f; the paper's from ^%.2f", found.exponent,
                       paper.least_exponent);
     if (std::isfinite(paper.most_exponent))
         text += formatted(" to ^%.2f", paper.most_exponent);
@@ -104,11 +104,11 @@ Json json_of(const SpeedUps& found)
         over.push_back({{"speed_ups", each.factors},
                         {"at_least_the_papers", each.at_least},
                         {"break_even", each.break_even ? Json(*each.break_even) : Json()},
-                        {"a66_holds", each.in_time}});
+                        {"break_even_holds", each.in_time}});
     return {{"motion", name_of(found.motion)},
             {"over_baselines", over},
             {"exponent", found.exponent},
-            {"a67_holds", found.exponent_holds}};
+            {"exponent_holds", found.exponent_holds}};
 }
 
 Json json_of(const Clustered& clustered)
