@@ -103,8 +103,8 @@ std::filesystem::path log_in(const std::filesystem::path& folder)
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw std::system_error(error, folder.string() + ": the folder for the input log cannot be made; " +
-                                           "name one that can be written to");
+        throw std::runtime_error("cannot make " + folder.string() + " for the input log: " + error.message() +
+                                 "; name a folder that can be written to");
     const std::filesystem::path log = folder / "input.log";
     for (int number = 1; std::filesystem::exists(log); ++number) {
         const std::filesystem::path older = folder / ("input-" + std::to_string(number) + ".log");

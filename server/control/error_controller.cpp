@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t window = 1024;    ///< samples remembered
 constexpr std::size_t enough = 256;     ///< samples that a turn is made upon
-constexpr std::size_t enough_afar = 64; ///< and where the error is far off
+constexpr std::size_t enough_afar = 64; ///< and where the error is far off; a whole window once it is held
 constexpr double afar = 0.5;            ///< such a difference of logarithms
 constexpr double band = 0.1;       ///< of the error's logarithm about its target's, within which it rests
 constexpr double leave = 0.15;     ///< and above which it no longer does, by a full window
@@ -49,7 +49,7 @@ Detail ErrorController::next(const FrameWork& work)
 {
     note_size(work);
     if (take_samples(work))
-        turn_goal();
+        turn_goal(work.frame);
     floor_ = std::min(goal_, floor_ + most_rise); // downwards the frame rate's controller sets the pace
     frame_rate_.set_finest(floor_);
     FrameWork asked = work;
@@ -66,6 +66,7 @@ void ErrorController::forget()
 {
     same_frames_ = still_frames_ = 0;
     search_ = {};
+    state_ = ControlState::Adjusting;
 }
 
 ControlState ErrorController::state() const
@@ -109,7 +110,7 @@ bool ErrorController::take_samples(const FrameWork& work)
     return errors_.size() > before || (errors_.size() == window && !work.errors.empty());
 }
 
-void ErrorController::turn_goal()
+void ErrorController::turn_goal(std::uint64_t frame)
 {
     if (errors_.size() < enough_afar)
         return;
@@ -129,14 +130,14 @@ void ErrorController::turn_goal()
             search_.held();
         return;
     }
-    turn_by(excess);
+    turn_by(excess, frame);
 }
 
-void ErrorController::turn_by(double excess)
+void ErrorController::turn_by(double excess, std::uint64_t frame)
 {
     const SizeFactors sizes = size_factors(settings_, scope_);
     const double least = std::log(sizes.least), most = std::log(sizes.most);
-    goal_ = std::clamp(search_.next(size_, excess), least, most);
+    goal_ = std::clamp(search_.next(size_, excess, frame), least, most);
     if (excess > 0 && size_ <= least)
         state_ = ControlState::Unreachable;
     else if (excess < 0 && (size_ >= most || search_.kept_below_jump()))

@@ -29,8 +29,8 @@ private:
     void note_size(const FrameWork& work);
     bool followed() const;                    ///< the clusters have, what was turned last
     bool take_samples(const FrameWork& work); ///< false: none came that counts
-    void turn_goal();
-    void turn_by(double excess);
+    void turn_goal(std::uint64_t frame);
+    void turn_by(double excess, std::uint64_t frame);
     void forget(); ///< what was learned of other clusters, or at another detail
 
     ControlSettings settings_;

@@ -69,7 +69,8 @@ void for_each_field(ControlSettings& control, Visitor&& visit)
     visit(Field{"largest_breadth", "", "Factor up to which max_breadth is raised after that.", 1, 1000},
           control.largest_breadth);
     visit(Field{"target_error", "",
-                "Median error of members' accelerations, relative, that mode \"error\" holds: 0.01 is 1 %.", 1e-6, 1},
+                "Median error of members' accelerations, relative, that mode \"error\" holds: 0.01 is 1 %.",
+                1e-6, 1},
           control.target_error);
     visit(Field{"priority", "",
                 "Which target mode \"error\" gives up where it cannot hold both: not this one. In a free run "

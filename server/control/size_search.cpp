@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace slod {
 namespace {
 
-/// Largest turn at once. Between 0.3 and 1.2 (flow maps, galaxies and pairs of them) is the power of the size
-/// that the error goes with, so that a turn leaves a fifth to seven tenths of the excess; it is 6 between
-/// single particles and pairs, where a turn goes too far and the next is between two ends.
+/// Largest turn at once. The error goes with a power of the size, 0.3 to 1.2 for flow maps of galaxies and of
+/// pairs of them, so that a turn by the excess leaves a fifth to seven tenths of it. Between single particles
+/// and pairs it goes with the sixth: a turn goes too far there, and the next is between two ends.
 constexpr double most_turn = 0.7;
-constexpr double near_by = 0.05;    ///< the same where the size wanted is; each turn there doubles it
-constexpr double nearest = 0.25;    ///< to an end that is gone to, as a part of the distance of both
+constexpr double near_by = 0.05;    ///< the same where the size wanted is near; each turn there doubles it
+constexpr double least_part = 0.25; ///< of the distance of two ends, that the next size keeps from both
 constexpr double narrowest = 0.02;  ///< distance of two ends that something is looked for between
-constexpr int least_patience = 512; ///< judgements; there is one a frame
-constexpr int most_patience = 8192;
+constexpr double same_size = 1e-3;  ///< largest difference of sizes that count as one
+constexpr std::uint64_t least_patience = 512, most_patience = 8192;
 
 } // namespace
 
@@ -23,46 +22,56 @@ SizeSearch::SizeSearch() : reach_(most_turn) {}
 
 void SizeSearch::held()
 {
+    if (at_jump())
+        return;
     *this = {};
     reach_ = near_by;
 }
 
+bool SizeSearch::at_jump() const
+{
+    return fine_.known && coarse_.known && coarse_.size - fine_.size < narrowest;
+}
+
 void SizeSearch::note(double size, double excess)
 {
-    const double distance = std::abs(coarse_.size - fine_.size);
-    (excess > 0 ? coarse_ : fine_) = {size, excess, true};
+    End& end = excess > 0 ? coarse_ : fine_;
     End& other = excess > 0 ? fine_ : coarse_;
-    if (other.known && fine_.size >= coarse_.size) {
-        other.known = false;
-        reach_ = std::clamp(2 * distance, near_by, most_turn);
-    }
+    const double distance = std::abs((end.known ? end.size : size) - other.size);
+    const bool turned = end.known && std::abs(end.size - size) > same_size;
+    if (!other.known && turned)
+        reach_ = std::min(2 * reach_, most_turn);
+    end = {size, excess, true};
+    if (!other.known || fine_.size < coarse_.size)
+        return;
+    other.known = false;
+    reach_ = std::clamp(2 * distance, near_by, most_turn);
+    if (&other == &coarse_)
+        next_trial_ = 0; // what is found above the target next is another jump
 }
 
-double SizeSearch::next(double size, double excess)
+double SizeSearch::next(double size, double excess, std::uint64_t frame)
 {
     note(size, excess);
-    const double distance = coarse_.size - fine_.size;
-    const bool between = fine_.known && coarse_.known;
-    if (between && distance < narrowest)
-        return keep_below_jump(excess);
-    rested_ = 0;
-    if (!between) {
-        const double reach = std::exchange(reach_, std::min(2 * reach_, most_turn));
-        return size - std::clamp(excess, -reach, reach);
-    }
+    kept_below_ = false;
+    if (at_jump())
+        return keep_below_jump(excess, frame);
+    if (!fine_.known || !coarse_.known)
+        return size - std::clamp(excess, -reach_, reach_);
     const double part = fine_.excess / (fine_.excess - coarse_.excess);
-    return fine_.size + std::clamp(part, nearest, 1 - nearest) * distance;
+    return std::lerp(fine_.size, coarse_.size, std::clamp(part, least_part, 1 - least_part));
 }
 
-double SizeSearch::keep_below_jump(double excess)
+double SizeSearch::keep_below_jump(double excess, std::uint64_t frame)
 {
-    if (excess > 0) {
-        rested_ = 0;
+    if (excess < 0 && frame >= next_trial_)
+        return coarse_.size;
+    if (excess > 0 && frame >= next_trial_) {
         patience_ = std::clamp(2 * patience_, least_patience, most_patience);
-        return fine_.size;
+        next_trial_ = frame + patience_;
     }
-    rested_ = rested_ < patience_ ? rested_ + 1 : 0;
-    return rested_ > 0 ? fine_.size : coarse_.size;
+    kept_below_ = excess < 0;
+    return fine_.size;
 }
 
 } // namespace slod

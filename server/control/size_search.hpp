@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace slod {
 
 /// Looks for the cluster size at which the error is at its target, by sizes that have been judged one after
@@ -9,21 +11,23 @@ namespace slod {
 /// False position (Press et al. 2007, section 9.2) once a size is known on either side, kept away from both
 /// ends as errors are noisy; before that, turns as if the error grew with the size itself. An end that what
 /// is found later contradicts is forgotten, and looked for near by first. Between two ends that nothing fits
-/// between, the lower one is kept: the upper one is tried first where it was not judged since, and again
-/// after ever longer times, as what was found there may have gone.
+/// between the error jumps, and the lower one is kept. The upper one is tried once more first, as what was
+/// found there may be old, and again after ever longer times, as it may have gone.
 class SizeSearch {
 public:
     SizeSearch();
 
     /// What size to judge next, where the error was judged to be off its target at `size`. Both are
-    /// logarithms of sizes; `excess` is that of the error over its target, not 0.
-    double next(double size, double excess);
+    /// logarithms of sizes; `excess` is that of the error over its target, not 0. Frames never decrease.
+    double next(double size, double excess, std::uint64_t frame);
 
-    /// The error is at its target. Where it leaves it, the size wanted is near by, and what is known is old.
+    /// The error is at its target. Where it leaves it, the size wanted is near by, and what is known is old,
+    /// but for a jump.
     void held();
 
-    /// The error jumps over the target above the last `size`, which is as near as can be had.
-    bool kept_below_jump() const { return rested_ > 0; }
+    /// The error jumps over the target above the size that was asked for last, which is as near as can be
+    /// had.
+    bool kept_below_jump() const { return kept_below_; }
 
 private:
     struct End {
@@ -32,12 +36,14 @@ private:
     };
 
     void note(double size, double excess);
-    double keep_below_jump(double excess);
+    bool at_jump() const;
+    double keep_below_jump(double excess, std::uint64_t frame);
 
     End fine_, coarse_; ///< the error was below its target here, and above it there
     double reach_;      ///< of the next turn where only one of them is known
-    int rested_ = 0;    ///< judgements at the lower end, in a row
-    int patience_ = 0;  ///< of them, until the upper end is tried; 0: it never was
+    bool kept_below_ = false;
+    std::uint64_t patience_ = 0;   ///< frames between the last trial of the upper end and the next
+    std::uint64_t next_trial_ = 0; ///< frame from which on it is tried
 };
 
 } // namespace slod

@@ -2,6 +2,7 @@
 // processor and the clients on another, beside that of a replay of the same run, which has the same commands
 // in the same frames and nobody to talk to.
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -9,13 +10,13 @@
 #include <signal.h>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "e2e/wire_support.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace {
 
@@ -26,7 +27,8 @@ using slod::test::Child;
 struct Options {
     std::uint64_t particles = 1'000'000;
     double frame_rate = 5;
-    std::string subscribers = "64", commanders = "16", seconds = "60";
+    std::uint32_t subscribers = 64, commanders = 16;
+    double seconds = 60;
     bool best_effort = false;
     bool json = false;
 };
@@ -43,6 +45,8 @@ Words server(Words words)
 Json read_json(const std::filesystem::path& file)
 {
     std::ifstream stream(file);
+    if (!stream)
+        throw std::runtime_error("there is no " + file.string());
     return Json::parse(stream);
 }
 
@@ -75,22 +79,15 @@ Runs run(const Options& options, const std::filesystem::path& folder)
                             "--report", folder / "live.json", "--set", "control.mode=off", "--set",
                             "galaxy.particles=" + std::to_string(options.particles), "--set",
                             "server.frame_rate=" + std::to_string(options.frame_rate)}));
-        Words words{SLOD_STRESS,
-                    "--domain",
-                    domain.text(),
-                    "--timeout",
-                    "120",
-                    "--cpus",
-                    "1",
-                    "--subscribers",
-                    options.subscribers,
-                    "--commanders",
-                    options.commanders,
-                    "--seconds",
-                    options.seconds,
-                    "--json"};
+        Words words{SLOD_STRESS, "--json", "--domain", domain.text(), "--timeout", "120", "--cpus", "1"};
+        const auto add = [&](const char* option, const std::string& value) {
+            words.insert(words.end(), {option, value});
+        };
+        add("--subscribers", std::to_string(options.subscribers));
+        add("--commanders", std::to_string(options.commanders));
+        add("--seconds", std::to_string(options.seconds));
         if (options.best_effort)
-            words.insert(words.end(), {"--best-effort", options.subscribers});
+            add("--best-effort", std::to_string(options.subscribers));
         Child load(words);
         const int held = load.wait();
         runs.stress = report_of(load);
@@ -111,12 +108,14 @@ double frame_ms(const Json& report)
     return 1e3 * report["processor_s"].get<double>() / report["frames"].get<double>();
 }
 
-/// Of all frames of rest and load, by frame.
+/// Of all frames of rest and load, by frame; NaN where the kernel did not say.
 double mean(const Json& stress, const char* key)
 {
-    const double rest = stress["rest"]["frames"], load = stress["load"]["frames"];
-    return (rest * stress["rest"][key].get<double>() + load * stress["load"][key].get<double>()) /
-           (rest + load);
+    const Json &rest = stress["rest"], &load = stress["load"];
+    const double at_rest = rest["frames"], loaded = load["frames"];
+    if (!rest[key].is_number() || !load[key].is_number())
+        return std::nan("");
+    return (at_rest * rest[key].get<double>() + loaded * load[key].get<double>()) / (at_rest + loaded);
 }
 
 Json judge(const Runs& runs)
@@ -147,24 +146,24 @@ int main(int argc, char** argv)
 try {
     CLI::App app("What clients cost a server, beside the replay of the same run without them");
     Options options;
-    app.add_option("--particles", options.particles, "Stars of the galaxy [1000000]");
-    app.add_option("--frame-rate", options.frame_rate, "Frames per second [5]");
-    app.add_option("--subscribers", options.subscribers, "Readers [64]");
-    app.add_option("--commanders", options.commanders, "Processes that command [16]");
-    app.add_option("--seconds", options.seconds, "Time under load [60]");
+    app.add_option("--particles", options.particles, "Stars of the galaxy [1000000]")
+        ->check(CLI::Range(1000, 100'000'000));
+    app.add_option("--frame-rate", options.frame_rate, "Frames per second [5]")
+        ->check(CLI::Range(0.1, 1000.0));
+    app.add_option("--subscribers", options.subscribers, "Readers [64]")->check(CLI::Range(1, 120));
+    app.add_option("--commanders", options.commanders, "Processes that command [16]")
+        ->check(CLI::Range(0, 60));
+    app.add_option("--seconds", options.seconds, "Time under load [60]")->check(CLI::Range(1.0, 3600.0));
     app.add_flag("--best-effort", options.best_effort, "Readers do not ask for lost samples");
     app.add_flag("--json", options.json, "One JSON object on the last line");
     CLI11_PARSE(app, argc, argv);
 
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("slod-clients-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    const Json result = judge(run(options, folder));
-    std::filesystem::remove_all(folder);
+    const slod::ScratchFolder folder;
+    const Json result = judge(run(options, folder.path()));
     std::printf("%s\n", result.dump(2).c_str());
     if (options.json)
         std::printf("%s\n", result.dump().c_str());
-    return 0;
+    return result["same_hash"] && result["held"] ? 0 : 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "bench-clients: %s\n", error.what());
     return 1;
