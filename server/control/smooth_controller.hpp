@@ -19,11 +19,11 @@ namespace slod {
 /// The work per cluster is a median over the last frames, of few where the error is large and of more where
 /// it is small: an outlier, or a clock that jumps, changes nothing. Within a band about the target the output
 /// rests, and is left only where the error is above twice that. The output rises by no more than 6 % a frame,
-/// by 12 % where the work is far above its target, and falls by no more than 2.5 %, as a frame that is late is
-/// worse than one that is early; by 6 % where more than a fifth of the time is left and particles hardly grow
-/// in number. Clusters split at sizes of
-/// their own (Detail), so that few of them change in any frame. Particles that will have been born when
-/// clusters have followed are taken into account; where it is asked whether to rest, at their mean rate.
+/// by 12 % where the work is far above its target, and falls by no more than 2.5 %, as a frame that is late
+/// is worse than one that is early; by 6 % where more than a fifth of the time is left and particles hardly
+/// grow in number, and 9 % where far more is. Clusters split at sizes of their own (Detail), so that few of
+/// them change in any frame. Particles that will have been born when clusters have followed are taken into
+/// account; where it is asked whether to rest, at their mean rate.
 ///
 /// Where clusters are at their largest and that is not enough, other levers follow in steps, in the order
 /// opening, life, breadth; where clusters are less than half that large, or as small as they may be with time

@@ -272,7 +272,8 @@ double change_of_size(double work_over_target, double growth)
 
 TEST(SmoothControl, SizesFallFastOnlyWhereMuchTimeIsLeftAndParticlesDoNotGrowInNumber)
 {
-    EXPECT_NEAR(change_of_size(0.6, 0), -0.06, 1e-12);
+    EXPECT_NEAR(change_of_size(0.6, 0), -0.09, 1e-12);
+    EXPECT_NEAR(change_of_size(0.75, 0), -0.06, 1e-12);
     EXPECT_NEAR(change_of_size(0.6, 640), -0.025, 1e-12);
     EXPECT_NEAR(change_of_size(0.85, 0), -0.025, 1e-12);
 }
