@@ -19,17 +19,28 @@ ConservedQuantities& ConservedQuantities::operator+=(const ConservedQuantities& 
     return *this;
 }
 
+namespace {
+
+InnerMotion inner_motion_of(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
+{
+    const ClusterTable& clusters = store.clusters;
+    if (clusters.count[slot] == 1)
+        return {};
+    const MapBlocks map = clusters.blocks(slot, store.rule, frame);
+    return store.rule.kind == MapKind::Full ? inner_motion(clusters.moments[slot], map)
+                                            : scalar_inner_motion(clusters.moments[slot], map);
+}
+
+} // namespace
+
 ConservedQuantities conserved_quantities(const ClusterStore& store, std::size_t slot, std::uint64_t frame)
 {
     const ClusterTable& clusters = store.clusters;
-    const MappedMoments inner = map_moments(clusters.moments[slot], clusters.blocks(slot, store.rule, frame));
+    const InnerMotion inner = inner_motion_of(store, slot, frame);
     const double mass = clusters.mass(slot);
     const Vector3d& x = clusters.position[slot];
     const Vector3d v = clusters.mean_velocity(slot);
-    // sum of m dx x dv from the off-diagonal differences of sum of m dx dv^T
-    const Vector3d spin{inner.cross(1, 2) - inner.cross(2, 1), inner.cross(2, 0) - inner.cross(0, 2),
-                        inner.cross(0, 1) - inner.cross(1, 0)};
-    return {mass, mass * v, mass * x.cross(v) + spin, 0.5 * (mass * v.squaredNorm() + inner.velocity.trace()),
+    return {mass, mass * v, mass * x.cross(v) + inner.spin, 0.5 * (mass * v.squaredNorm() + inner.square),
             mass * x};
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 namespace slod {
 namespace {
@@ -29,6 +30,12 @@ Matrix3d mapped_square(const CentralMoments& sums, const Matrix3d& p, const Matr
     return p * sums.oo * p.transpose() + mixed + mixed.transpose() + r * sums.ww * r.transpose();
 }
 
+/// e with e_i = m_jk - m_kj, i, j, k cyclic: of the sum of x y^T, that of x x y.
+Vector3d antisymmetric(const Matrix3d& m)
+{
+    return {m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0)};
+}
+
 } // namespace
 
 MappedMoments map_moments(const Moments& moments, const MapBlocks& map)
@@ -37,6 +44,23 @@ MappedMoments map_moments(const Moments& moments, const MapBlocks& map)
     return {mapped_square(sums, map.a, map.b), mapped_square(sums, map.c, map.d),
             map.a * sums.oo * map.c.transpose() + map.a * sums.ow * map.d.transpose() +
                 map.b * sums.ow.transpose() * map.c.transpose() + map.b * sums.ww * map.d.transpose()};
+}
+
+InnerMotion inner_motion(const Moments& moments, const MapBlocks& map)
+{
+    const MappedMoments mapped = map_moments(moments, map);
+    return {antisymmetric(mapped.cross), mapped.velocity.trace()};
+}
+
+InnerMotion scalar_inner_motion(const Moments& moments, const MapBlocks& map)
+{
+    const double a = map.a(0, 0), b = map.b(0, 0), c = map.c(0, 0), d = map.d(0, 0);
+    const double per_weight = moments.weight > 0 ? 1 / moments.weight : 0;
+    const double oo = moments.oo.trace() - per_weight * moments.o.squaredNorm();
+    const double ow = moments.ow.trace() - per_weight * moments.o.dot(moments.w);
+    const double ww = moments.ww.trace() - per_weight * moments.w.squaredNorm();
+    const Vector3d spin = antisymmetric(moments.ow) - per_weight * moments.o.cross(moments.w);
+    return {(a * d - b * c) * spin, c * c * oo + 2 * c * d * ow + d * d * ww};
 }
 
 Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map)

@@ -40,6 +40,16 @@ struct MappedMoments {
 
 MappedMoments map_moments(const Moments& moments, const MapBlocks& map);
 
+/// What the mapped moments say of the motion inside a cluster.
+struct InnerMotion {
+    Vector3d spin{0, 0, 0}; ///< sum of weight dx x dv
+    double square = 0;      ///< sum of weight |dv|^2
+};
+InnerMotion inner_motion(const Moments& moments, const MapBlocks& map);
+
+/// The same in a few multiplications, for a map whose blocks are multiples of the identity.
+InnerMotion scalar_inner_motion(const Moments& moments, const MapBlocks& map);
+
 /// The position part of map_moments alone, which is what a frame needs.
 Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map);
 
