@@ -80,8 +80,7 @@ std::string claims(const SpeedUps& found, const PaperFigures& paper)
 {
     using Over = SpeedUps::Over;
     std::string text = "  " + name_of(found.motion) + ": all speed-ups are at least the paper's over " +
-                       letters(found, [](const Over& over) { return over.at_least; }) +
-                       "\n    clusters pay";
+                       letters(found, [](const Over& over) { return over.at_least; }) + "\n    clusters pay";
     for (std::size_t i = 0; i < found.over.size(); ++i) {
         const std::optional<double>& size = found.over[i].break_even;
         text += std::string(i > 0 ? "," : "") + " over " + letter(i) + " " +
