@@ -30,6 +30,19 @@ Matrix3d mapped_square(const CentralMoments& sums, const Matrix3d& p, const Matr
     return p * sums.oo * p.transpose() + mixed + mixed.transpose() + r * sums.ww * r.transpose();
 }
 
+/// The traces of CentralMoments, without the matrices.
+struct CentralTraces {
+    double oo, ww, ow;
+};
+
+CentralTraces central_traces(const Moments& moments)
+{
+    const double per_weight = moments.weight > 0 ? 1 / moments.weight : 0;
+    return {moments.oo.trace() - per_weight * moments.o.squaredNorm(),
+            moments.ww.trace() - per_weight * moments.w.squaredNorm(),
+            moments.ow.trace() - per_weight * moments.o.dot(moments.w)};
+}
+
 /// e with e_i = m_jk - m_kj, i, j, k cyclic: of the sum of x y^T, that of x x y.
 Vector3d antisymmetric(const Matrix3d& m)
 {
@@ -55,12 +68,9 @@ InnerMotion inner_motion(const Moments& moments, const MapBlocks& map)
 InnerMotion scalar_inner_motion(const Moments& moments, const MapBlocks& map)
 {
     const double a = map.a(0, 0), b = map.b(0, 0), c = map.c(0, 0), d = map.d(0, 0);
-    const double per_weight = moments.weight > 0 ? 1 / moments.weight : 0;
-    const double oo = moments.oo.trace() - per_weight * moments.o.squaredNorm();
-    const double ow = moments.ow.trace() - per_weight * moments.o.dot(moments.w);
-    const double ww = moments.ww.trace() - per_weight * moments.w.squaredNorm();
-    const Vector3d spin = antisymmetric(moments.ow) - per_weight * moments.o.cross(moments.w);
-    return {(a * d - b * c) * spin, c * c * oo + 2 * c * d * ow + d * d * ww};
+    const CentralTraces sums = central_traces(moments);
+    const Vector3d spin = antisymmetric(moments.ow) - moments.o.cross(moments.mean_velocity());
+    return {(a * d - b * c) * spin, c * c * sums.oo + 2 * c * d * sums.ow + d * d * sums.ww};
 }
 
 Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map)
@@ -70,11 +80,8 @@ Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map)
 
 double streamed_trace(const Moments& moments, double drift)
 {
-    const double per_weight = moments.weight > 0 ? 1 / moments.weight : 0;
-    const double oo = moments.oo.trace() - per_weight * moments.o.squaredNorm();
-    const double ow = moments.ow.trace() - per_weight * moments.o.dot(moments.w);
-    const double ww = moments.ww.trace() - per_weight * moments.w.squaredNorm();
-    return oo + drift * (2 * ow + drift * ww);
+    const CentralTraces sums = central_traces(moments);
+    return sums.oo + drift * (2 * sums.ow + drift * sums.ww);
 }
 
 double breadth(const Symmetric3& second_moments, double weight)
