@@ -46,6 +46,24 @@ struct ErrorPlant {
     }
 };
 
+/// Runs a frame; what the controller makes of the detail. `work_ms` is left with the frame's work.
+inline Detail run_frame(ErrorPlant& plant, Controller& controller, const Detail& detail, double frame_ms,
+                        double& work_ms)
+{
+    work_ms = plant.plant.run(detail);
+    FrameWork told = plant.plant.told(work_ms, frame_ms);
+    const std::vector<ErrorSample> errors = plant.draw();
+    told.frame = plant.plant.frames;
+    told.errors = errors;
+    return controller.next(told);
+}
+
+inline Detail run_frame(ErrorPlant& plant, Controller& controller, const Detail& detail = {})
+{
+    double work_ms = 0;
+    return run_frame(plant, controller, detail, target_ms, work_ms);
+}
+
 /// What became of a run.
 struct Outcome {
     double work_ms = 0; ///< of the last frame
@@ -65,12 +83,7 @@ inline Outcome run(
     Outcome outcome;
     for (int frame = 0; frame < frames; ++frame) {
         disturb(frame);
-        outcome.work_ms = plant.plant.run(detail);
-        FrameWork told = plant.plant.told(outcome.work_ms, frame_ms);
-        const std::vector<ErrorSample> errors = plant.draw();
-        told.frame = plant.plant.frames;
-        told.errors = errors;
-        const Detail next = controller->next(told);
+        const Detail next = run_frame(plant, *controller, detail, frame_ms, outcome.work_ms);
         const bool moved = !(std::exchange(detail, next) == next);
         outcome.state = controller->state();
         if (frame < frames - last)

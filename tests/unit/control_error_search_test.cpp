@@ -89,13 +89,8 @@ TEST(ErrorControl, ForgetsWhatWasFoundWithOtherRegions)
     const auto controller = make_controller(holding(0.02, ControlPriority::Error), {}, {});
     Detail detail;
     const auto run_frames = [&](int frames) {
-        for (int frame = 0; frame < frames; ++frame) {
-            FrameWork told = plant.plant.told(plant.plant.run(detail), target_ms);
-            const std::vector<ErrorSample> errors = plant.draw();
-            told.frame = plant.plant.frames;
-            told.errors = errors;
-            detail = controller->next(told);
-        }
+        for (int frame = 0; frame < frames; ++frame)
+            detail = run_frame(plant, *controller, detail);
     };
     run_frames(2000);
     EXPECT_EQ(controller->state(), ControlState::Holding);
@@ -111,14 +106,9 @@ TEST(ErrorControl, ForgetsWhatWasFoundWithOtherRegions)
 int first_move(ErrorPlant plant, double target, int frames)
 {
     const auto controller = make_controller(holding(target, ControlPriority::Error), {}, {});
-    for (int frame = 0; frame < frames; ++frame) {
-        FrameWork told = plant.plant.told(plant.plant.run({}), target_ms);
-        const std::vector<ErrorSample> errors = plant.draw();
-        told.frame = plant.plant.frames;
-        told.errors = errors;
-        if (std::abs(controller->next(told).cluster_size - 1) > 1e-3)
+    for (int frame = 0; frame < frames; ++frame)
+        if (std::abs(run_frame(plant, *controller).cluster_size - 1) > 1e-3)
             return frame;
-    }
     return frames;
 }
 
@@ -138,11 +128,7 @@ TEST(ErrorControl, LeavesASizeThatIsHeldUponAWholeWindowAlone)
     int held_at = 0, moved_at = 0;
     for (int frame = 1; frame <= 800 && moved_at == 0; ++frame) {
         plant.error_at_64 = held_at == 0 ? 0.02 : 0.2;
-        FrameWork told = plant.plant.told(plant.plant.run({}), target_ms);
-        const std::vector<ErrorSample> errors = plant.draw();
-        told.frame = plant.plant.frames;
-        told.errors = errors;
-        moved_at = std::abs(controller->next(told).cluster_size - 1) > 1e-3 ? frame : 0;
+        moved_at = std::abs(run_frame(plant, *controller).cluster_size - 1) > 1e-3 ? frame : 0;
         held_at = held_at == 0 && controller->state() == ControlState::Holding ? frame : held_at;
     }
     EXPECT_GT(held_at, 128);
