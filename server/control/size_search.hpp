@@ -11,8 +11,9 @@ namespace slod {
 /// False position (Press et al. 2007, section 9.2) once a size is known on either side, kept away from both
 /// ends as errors are noisy; before that, turns as if the error grew with the size itself. An end that what
 /// is found later contradicts is forgotten, and looked for near by first. Between two ends that nothing fits
-/// between the error jumps, and the lower one is kept. The upper one is tried once more first, as what was
-/// found there may be old, and again after ever longer times, as it may have gone.
+/// between the error jumps, and the lower one is kept. The upper one of the first such pair, and of one above
+/// it, is tried once more first, as what was found there may be old; and again after ever longer times, as
+/// the jump may have gone.
 class SizeSearch {
 public:
     SizeSearch();

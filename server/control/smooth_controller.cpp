@@ -12,7 +12,7 @@ namespace {
 constexpr double gain_of_fields = 2.75, gain_of_gravity = 0.9;
 /// Largest rise and fall of the output in a frame, and those where the work is further above or below its
 /// target than `far_off`, as a logarithm. Under twice the load the fountain's work is within a tenth of its
-/// target after 24 frames in place of 30 to 61 without the latter, and 15 in place of 19 once it is over;
+/// target after 24 frames in place of 30 to 61 without steep ones, and 15 in place of 19 once it is over;
 /// that of the plant of fields in the tests within a twentieth after 26 in place of 20.
 constexpr double most_rise = 0.06, steep_rise = 0.12;
 constexpr double most_fall = 0.025, steep_fall = 0.09;
