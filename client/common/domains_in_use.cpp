@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -17,13 +18,13 @@ constexpr std::uint32_t first_unicast = 10; ///< of a domain's ports
 
 } // namespace
 
-std::set<std::uint32_t> domains_in_use()
+std::map<std::uint32_t, std::uint32_t> domains_in_use()
 {
     std::ifstream sockets("/proc/net/udp");
     return domains_in_use(sockets);
 }
 
-std::set<std::uint32_t> domains_in_use(std::istream& sockets)
+std::map<std::uint32_t, std::uint32_t> domains_in_use(std::istream& sockets)
 {
     std::set<std::uint32_t> ports;
     std::string line;
@@ -37,7 +38,7 @@ std::set<std::uint32_t> domains_in_use(std::istream& sockets)
             std::from_chars(local.data() + colon + 1, local.data() + local.size(), port, 16);
         ports.insert(port);
     }
-    std::set<std::uint32_t> domains;
+    std::map<std::uint32_t, std::uint32_t> participants;
     for (const std::uint32_t port : ports) {
         if (port < port_base)
             continue;
@@ -45,9 +46,9 @@ std::set<std::uint32_t> domains_in_use(std::istream& sockets)
         const std::uint32_t place = (port - port_base) % ports_per_domain;
         const bool discovery = place >= first_unicast && place % 2 == 0;
         if (domain <= wire::last_domain && discovery && ports.contains(port + 1))
-            domains.insert(domain);
+            ++participants[domain];
     }
-    return domains;
+    return participants;
 }
 
 } // namespace slod::client

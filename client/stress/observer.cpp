@@ -21,7 +21,7 @@ std::string this_host()
 } // namespace
 
 Observer::Observer(std::uint32_t domain, wire::Profile profile)
-    : connection_(domain, profile, {.stats = true})
+    : connection_(domain, profile, {.stats = true, .regions = true})
 {}
 
 void Observer::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout)

@@ -157,8 +157,8 @@ std::variant<Options, ExitCode> parse_options(int argc, const char* const* argv)
                  "slod-stress");
     app.footer(
         "The report goes to stdout, everything else to stderr. CYCLONEDDS_URI, when set, replaces the\n"
-        "profile. Exit codes: 0 all held, 1 something did not, 2 wrong usage, 69 no server,\n"
-        "75 no statistics in time, 77 not permitted.\n"
+        "profile. Exit codes: 0 all held, 1 something did not, 2 wrong usage, 66 no such region,\n"
+        "69 no server, 75 no statistics in time, 77 not permitted.\n"
         "Example: slod-stress --subscribers 16 --slow 2 --commanders 4 --malformed 5 --max-loss 1");
     Options options;
     declare(app, options);

@@ -42,6 +42,26 @@ std::string caveat(const Options& options, const client::Connection& connection,
     return {};
 }
 
+/// Waits until it is known whether the region to read, where one is named, is there; complains when it is
+/// not.
+ExitCode find_region(Observer& observer, const Options& options, const std::stop_token& stop,
+                     client::Clock::time_point end)
+{
+    if (options.region.empty())
+        return ExitCode::Success;
+    const client::Connection& connection = observer.connection();
+    const auto there = [&] { return connection.regions().contains(options.region); };
+    const auto absent = [&] { return connection.lacks_region(options.region); };
+    if (!client::wait_until(observer, stop, end, [&] { return there() || absent(); })) {
+        complain("not all regions came in time; wait longer with --timeout");
+        return ExitCode::TimedOut;
+    }
+    if (there())
+        return ExitCode::Success;
+    complain(client::no_region_sentence(options.region));
+    return ExitCode::NotFound;
+}
+
 /// One run, or for a sweep one for each number of subscribers as long as the server is there; at least one.
 std::vector<Report> reports_of(Observer& observer, const Options& options, const std::stop_token& stop)
 {
@@ -93,8 +113,8 @@ ExitCode run(const Options& options, const std::stop_token& stop)
         return ExitCode::Usage;
     }
     Observer observer(options.server.domain, options.server.profile);
-    if (!client::wait_until(observer, stop, deadline(options.server),
-                            [&] { return observer.sees_server(); })) {
+    const client::Clock::time_point end = deadline(options.server);
+    if (!client::wait_until(observer, stop, end, [&] { return observer.sees_server(); })) {
         const client::Connection& connection = observer.connection();
         const client::Status status = connection.status();
         const bool absent = status.contact == client::Contact::NoServer;
@@ -102,6 +122,8 @@ ExitCode run(const Options& options, const std::stop_token& stop)
                         : no_news_sentence("no statistics came in time", connection));
         return absent ? ExitCode::NoServer : ExitCode::TimedOut;
     }
+    if (const ExitCode code = find_region(observer, options, stop, end); code != ExitCode::Success)
+        return code;
     const std::vector<Report> reports = reports_of(observer, options, stop);
     if (const std::string warning = caveat(options, observer.connection(), reports.front().rest);
         !warning.empty())

@@ -5,6 +5,7 @@
 
 #include "scene/nearest.hpp"
 #include "scene/scene_check.hpp"
+#include "scene/sections.hpp"
 #include "scene/value_text.hpp"
 
 namespace slod {
@@ -16,6 +17,17 @@ constexpr std::string_view background_table = "background.";
 bool of_background(const Assignment& assignment)
 {
     return assignment.key.starts_with(background_table);
+}
+
+/// Whether scenes have a table of that name.
+bool is_table(std::string_view name)
+{
+    bool found = false;
+    Scene none;
+    for_each_section(none, [&](const Section& section, const auto&) {
+        found = found || (section.name == name && !name.empty());
+    });
+    return found;
 }
 
 /// Switches of effects that the scene does not have.
@@ -54,15 +66,18 @@ Problems unchangeable(const std::vector<Assignment>& settings)
         const std::string_view table = std::string_view(assignment.key).substr(0, assignment.key.find('.'));
         if (std::find(tables.begin(), tables.end(), table) != tables.end())
             continue;
-        const std::string* const meant = nearest(table, tables);
-        if (assignment.key.find('.') == std::string::npos) {
+        if (assignment.key.find('.') == std::string::npos)
             found.push_back(assignment.key + " is of no table; write table.key, such as background." +
                             assignment.key + ". What can change is in " + changeable);
-            continue;
-        }
-        found.push_back(assignment.key + " cannot change while the scene runs; " +
-                        (meant != nullptr ? "did you mean " + *meant + "?"
-                                          : "start the server with it. What can is in " + changeable));
+        else if (is_table(table))
+            found.push_back(assignment.key +
+                            " cannot change while the scene runs; start the server with it. "
+                            "What can is in " +
+                            changeable);
+        else if (const std::string* const meant = nearest(table, tables))
+            found.push_back(assignment.key + " is of no table; did you mean " + *meant + "?");
+        else
+            found.push_back(assignment.key + " is of no table. What can change is in " + changeable);
     }
     return found;
 }

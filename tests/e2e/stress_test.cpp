@@ -137,6 +137,18 @@ TEST_F(Stress, TheExitCodeSaysWhetherLimitsHeld)
     EXPECT_EQ(load({"--lunch"}), 2);
 }
 
+TEST_F(Stress, ARegionThatIsNotThereIsNamedBeforeAnyLoad)
+{
+    Child running(server());
+    EXPECT_EQ(load({"--subscribers", "1", "--region", "nosuch", "--seconds", "1", "--baseline", "0"}),
+              int(ctl::ExitCode::NotFound));
+    EXPECT_NE(said.find("no region named nosuch"), std::string::npos) << said;
+    ASSERT_EQ(control({"roi", "add", "near", "--centre", "0,0,0", "--radius", "5"}), 0) << answer;
+    EXPECT_EQ(load({"--subscribers", "1", "--region", "near", "--seconds", "1", "--baseline", "0"}), 0)
+        << said;
+    EXPECT_GT(report.at("readers").at(0).at("received"), 0) << report;
+}
+
 TEST_F(Stress, ASweepHasAReportForEachNumberOfSubscribersAndAPicture)
 {
     const Child running(server());

@@ -241,6 +241,19 @@ TEST_F(WireSlodctl, AStalledServerIsToldFromADeadOne)
     EXPECT_TRUE(says(connection, "silent")) << connection.status().reason;
 }
 
+// Its participant answers nobody who joins, but holds its ports.
+TEST_F(WireSlodctl, AServerThatIsSuspendedIsHintedAt)
+{
+    Child server(source("5"));
+    Connection connection = connect();
+    ASSERT_TRUE(reaches(connection, Contact::Live));
+    server.signal(SIGSTOP);
+    Child status(slodctl({"status", "--timeout", "0.5"}));
+    EXPECT_EQ(status.wait(), int(ExitCode::NoServer));
+    EXPECT_NE(status.errors().find("suspended"), std::string::npos) << status.errors();
+    server.signal(SIGCONT);
+}
+
 TEST_F(WireSlodctl, OfTwoServersOnADomainNoneIsSteered)
 {
     Child one(source("0")), two(source("0"));

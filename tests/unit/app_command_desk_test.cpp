@@ -144,12 +144,13 @@ TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
         EXPECT_NE(answer.text.find(text), std::string::npos) << answer.text;
         EXPECT_LE(answer.text.size(), 256U) << "the wire has no room for more: " << answer.text;
     };
-    expect("gravty.strength", "gravty.strength cannot change while the scene runs; did you mean gravity?");
+    expect("gravty.strength", "gravty.strength is of no table; did you mean gravity?");
     for (const std::string table : {"galaxy.particles", "wire.commands", "motion.clock", "emitter.0.rate"})
         expect(table, table +
                           " cannot change while the scene runs; start the server with it. What can is in "
                           "alarms, background, control, effects, meter, server, or the table of an effect");
     expect("gravity", "write table.key");
+    expect("nosuch.strength", "nosuch.strength is of no table. What can change is in alarms, background");
     expect("effects.gravty", "did you mean gravity?");
     expect("effects.vortex", "effects.vortex = 1 ");
 }
