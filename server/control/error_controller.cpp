@@ -66,6 +66,7 @@ void ErrorController::forget()
 {
     same_frames_ = still_frames_ = 0;
     search_ = {};
+    exceeded_ = false;
     state_ = ControlState::Adjusting;
 }
 

@@ -10,10 +10,11 @@ namespace {
 /// pairs of them, so that a turn by the excess leaves a fifth to seven tenths of it. Between single particles
 /// and pairs it goes with the sixth: a turn goes too far there, and the next is between two ends.
 constexpr double most_turn = 0.7;
-constexpr double near_by = 0.05;    ///< the same where the size wanted is near; each turn there doubles it
-constexpr double least_part = 0.25; ///< of the distance of two ends, that the next size keeps from both
-constexpr double narrowest = 0.02;  ///< distance of two ends that something is looked for between
-constexpr double same_size = 1e-3;  ///< largest difference of sizes that count as one
+constexpr double near_by = 0.05;     ///< the same where the size wanted is near; each turn there doubles it
+constexpr double least_part = 0.25;  ///< of the distance of two ends, that the next size keeps from both
+constexpr double narrowest = 0.02;   ///< distance of two ends that something is looked for between
+constexpr double same_size = 1e-3;   ///< largest difference of sizes that count as one
+constexpr double other_error = 0.15; ///< difference of errors at one size that is no chance
 constexpr std::uint64_t least_patience = 512, most_patience = 8192;
 
 } // namespace
@@ -33,6 +34,11 @@ bool SizeSearch::at_jump() const
     return fine_.known && coarse_.known && coarse_.size - fine_.size < narrowest;
 }
 
+bool SizeSearch::trial_is_due(std::uint64_t frame) const
+{
+    return frame >= trial_.next || fine_.excess < trial_.excess - other_error;
+}
+
 void SizeSearch::note(double size, double excess)
 {
     End& end = excess > 0 ? coarse_ : fine_;
@@ -46,8 +52,7 @@ void SizeSearch::note(double size, double excess)
         return;
     other.known = false;
     reach_ = std::clamp(2 * distance, near_by, most_turn);
-    if (&other == &coarse_)
-        next_trial_ = 0; // what is found above the target next is another jump
+    trial_ = {}; // a jump that is found next is another
 }
 
 double SizeSearch::next(double size, double excess, std::uint64_t frame)
@@ -64,11 +69,12 @@ double SizeSearch::next(double size, double excess, std::uint64_t frame)
 
 double SizeSearch::keep_below_jump(double excess, std::uint64_t frame)
 {
-    if (excess < 0 && frame >= next_trial_)
+    if (excess < 0 && trial_is_due(frame))
         return coarse_.size;
-    if (excess > 0 && frame >= next_trial_) {
-        patience_ = std::clamp(2 * patience_, least_patience, most_patience);
-        next_trial_ = frame + patience_;
+    if (excess > 0 && trial_is_due(frame)) {
+        trial_.excess = fine_.excess;
+        trial_.patience = std::clamp(2 * trial_.patience, least_patience, most_patience);
+        trial_.next = frame + trial_.patience;
     }
     kept_below_ = excess < 0;
     return fine_.size;

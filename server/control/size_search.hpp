@@ -11,9 +11,9 @@ namespace slod {
 /// False position (Press et al. 2007, section 9.2) once a size is known on either side, kept away from both
 /// ends as errors are noisy; before that, turns as if the error grew with the size itself. An end that what
 /// is found later contradicts is forgotten, and looked for near by first. Between two ends that nothing fits
-/// between the error jumps, and the lower one is kept. The upper one of the first such pair, and of one above
-/// it, is tried once more first, as what was found there may be old; and again after ever longer times, as
-/// the jump may have gone.
+/// between the error jumps, and the lower one is kept. The upper one is tried once more first, as what was
+/// found there may be old; again after ever longer times, as the jump may have gone; and at once where the
+/// error at the lower one falls, as the jump may have moved.
 class SizeSearch {
 public:
     SizeSearch();
@@ -36,15 +36,21 @@ private:
         bool known = false;
     };
 
+    struct Trial {
+        double excess = 0;          ///< at the lower end when the upper one was last tried
+        std::uint64_t patience = 0; ///< frames between that and the next trial
+        std::uint64_t next = 0;     ///< frame from which on it is tried
+    };
+
     void note(double size, double excess);
     bool at_jump() const;
+    bool trial_is_due(std::uint64_t frame) const;
     double keep_below_jump(double excess, std::uint64_t frame);
 
     End fine_, coarse_; ///< the error was below its target here, and above it there
     double reach_;      ///< of the next turn where only one of them is known
     bool kept_below_ = false;
-    std::uint64_t patience_ = 0;   ///< frames between the last trial of the upper end and the next
-    std::uint64_t next_trial_ = 0; ///< frame from which on it is tried
+    Trial trial_; ///< of the upper end, where the error jumps
 };
 
 } // namespace slod

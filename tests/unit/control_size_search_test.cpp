@@ -109,6 +109,31 @@ TEST(SizeSearch, FindsThatAJumpHasGone)
     EXPECT_LT(size, 3);
 }
 
+TEST(SizeSearch, TriesTheUpperEndAtOnceWhereTheErrorBelowItFalls)
+{
+    SizeSearch search;
+    search.next(0, -0.2, 1);
+    search.next(0.01, 0.6, 2);
+    EXPECT_EQ(search.next(0, -0.3, 50), 0) << "by chance";
+    EXPECT_EQ(search.next(0, -0.4, 60), 0.01);
+    EXPECT_EQ(search.next(0.01, 0.6, 61), 0);
+    EXPECT_EQ(search.next(0, -0.4, 70), 0) << "that has been tried";
+}
+
+TEST(SizeSearch, AJumpFoundLowerDownInheritsNoWait)
+{
+    SizeSearch search;
+    double size = 0;
+    for (std::uint64_t frame = 0; frame < 20'000; ++frame)
+        size = search.next(size, jump(0.537)(size), frame);
+    int trials = 0; // of a jump that has moved, once it is found
+    for (std::uint64_t frame = 20'000; frame < 22'000; ++frame) {
+        trials += frame > 20'100 && size >= 0.3;
+        size = search.next(size, jump(0.3)(size), frame);
+    }
+    EXPECT_EQ(trials, 2);
+}
+
 TEST(SizeSearch, TriesAnotherJumpAtOnce)
 {
     SizeSearch search;
