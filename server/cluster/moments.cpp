@@ -1,7 +1,9 @@
 #include "cluster/moments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -18,16 +20,28 @@ CentralMoments central(const Moments& moments)
 {
     const Vector3d o = moments.mean_offset();
     const Vector3d w = moments.mean_velocity();
-    return {moments.oo.matrix() - moments.weight * o * o.transpose(),
-            moments.ww.matrix() - moments.weight * w * w.transpose(),
-            moments.ow - moments.weight * o * w.transpose()};
+    Symmetric3 oo = moments.oo, ww = moments.ww;
+    oo += Symmetric3::square(-moments.weight, o);
+    ww += Symmetric3::square(-moments.weight, w);
+    const Vector3d weighted = moments.weight * o;
+    Matrix3d ow;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+        ow.col(axis) = moments.ow.col(axis) - w[axis] * weighted;
+    return {oo.matrix(), ww.matrix(), ow};
 }
 
-/// sum of weight (P o + R w)(P o + R w)^T
-Matrix3d mapped_square(const CentralMoments& sums, const Matrix3d& p, const Matrix3d& r)
+/// sum of weight (P o + R w)(P o + R w)^T. Row by row: products of whole matrices take twice as long here.
+Symmetric3 mapped_square(const CentralMoments& sums, const Matrix3d& p, const Matrix3d& r)
 {
-    const Matrix3d mixed = p * sums.ow * r.transpose();
-    return p * sums.oo * p.transpose() + mixed + mixed.transpose() + r * sums.ww * r.transpose();
+    const std::array<Vector3d, 3> ps{p.row(0), p.row(1), p.row(2)}, rs{r.row(0), r.row(1), r.row(2)};
+    const Matrix3d wo = sums.ow.transpose();
+    std::array<Vector3d, 3> os, ws; // sums of weight (P o + R w)_i o, and w
+    for (std::size_t i = 0; i < 3; ++i) {
+        os[i] = sums.oo * ps[i] + sums.ow * rs[i];
+        ws[i] = wo * ps[i] + sums.ww * rs[i];
+    }
+    const auto entry = [&](std::size_t i, std::size_t j) { return os[i].dot(ps[j]) + ws[i].dot(rs[j]); };
+    return {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
 }
 
 /// The traces of CentralMoments, without the matrices.
@@ -54,7 +68,7 @@ Vector3d antisymmetric(const Matrix3d& m)
 MappedMoments map_moments(const Moments& moments, const MapBlocks& map)
 {
     const CentralMoments sums = central(moments);
-    return {mapped_square(sums, map.a, map.b), mapped_square(sums, map.c, map.d),
+    return {mapped_square(sums, map.a, map.b).matrix(), mapped_square(sums, map.c, map.d).matrix(),
             map.a * sums.oo * map.c.transpose() + map.a * sums.ow * map.d.transpose() +
                 map.b * sums.ow.transpose() * map.c.transpose() + map.b * sums.ww * map.d.transpose()};
 }
@@ -75,7 +89,7 @@ InnerMotion scalar_inner_motion(const Moments& moments, const MapBlocks& map)
 
 Symmetric3 map_position_moments(const Moments& moments, const MapBlocks& map)
 {
-    return Symmetric3::of(mapped_square(central(moments), map.a, map.b));
+    return mapped_square(central(moments), map.a, map.b);
 }
 
 double streamed_trace(const Moments& moments, double drift)
