@@ -59,6 +59,21 @@ inline CLI::Validator writable_file()
     return {[](const std::string& text) { return unwritable_file(text); }, ""};
 }
 
+/// The same for a picture: its name says that it is PNG, where it is a file's.
+inline CLI::Validator writable_png()
+{
+    return {[](const std::string& text) {
+                const std::filesystem::path place(text);
+                if (std::string problem = unwritable_file(place); !problem.empty())
+                    return problem;
+                const bool is_png = place.extension() == ".png" || place.extension() == ".PNG";
+                return is_png || std::filesystem::is_character_file(place)
+                           ? std::string()
+                           : text + " is no name of a PNG picture; let it end with .png";
+            },
+            ""};
+}
+
 /// Takes a folder that files can be made in, or that can be made.
 inline CLI::Validator writable_folder()
 {

@@ -121,7 +121,7 @@ void declare(CLI::App& app, Options& options)
         ->option_text("N [1]");
     app.add_flag("--json", options.json, "Print the report as one JSON object on the last line, too");
     app.add_option("--picture", options.picture, "Draw latencies and delivered shares, with gnuplot")
-        ->check(writable_file())
+        ->check(writable_png())
         ->option_text("FILE.png");
     client::add_server_options(app, options.server, "Seconds to wait for a server");
     app.set_version_flag("--version", "slod-stress " + std::string(version()));

@@ -33,7 +33,7 @@ std::vector<double> numbers_of(std::string_view text)
 /// What keeps one assignment from being made; nothing when it was made.
 std::optional<std::string> assign(Camera& camera, std::string_view key, std::string_view text)
 {
-    const std::string subject = "camera: " + std::string(key);
+    const std::string subject = std::string(key);
     const std::vector<double> numbers = numbers_of(text);
     if (key == "look_at") {
         if (numbers.size() != 3)
@@ -83,12 +83,12 @@ std::variant<Camera, std::string> camera_of(std::string_view text)
     Camera camera;
     std::size_t start = text.find_first_not_of(blank);
     if (start == std::string_view::npos)
-        return "camera: nothing is said; write for example \"" + to_text(Camera{}) + '"';
+        return "no camera is described; write for example \"" + to_text(Camera{}) + '"';
     while (start != std::string_view::npos) {
         const std::string_view word = text.substr(start, text.find_first_of(blank, start) - start);
         const std::size_t equals = word.find('=');
         if (equals == std::string_view::npos)
-            return "camera: \"" + std::string(word) + "\" is no key=value";
+            return "\"" + std::string(word) + "\" is no key=value";
         if (auto wrong = assign(camera, word.substr(0, equals), word.substr(equals + 1)))
             return *wrong;
         start = text.find_first_not_of(blank, start + word.size());

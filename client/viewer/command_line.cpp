@@ -114,8 +114,8 @@ void declare(CLI::App& app, CommandLine& line)
         ->option_text("FOLDER [.]");
     CLI::Option* const screenshot =
         app.add_option("--screenshot", line.screenshot, "Write one PNG picture and end; needs no screen")
-            ->check(writable_file())
-            ->option_text("FILE")
+            ->check(writable_png())
+            ->option_text("FILE.png")
             ->excludes(follow);
     app.add_option("--frames", line.frames, "With --screenshot: complete frames to wait for")
         ->check(at_least_one())

@@ -67,8 +67,8 @@ void declare(CLI::App& app, CommandLine& line, Shorthands& shorthands)
         ->check(writable_file())
         ->option_text("FILE");
     app.add_option("--picture", line.picture, "Write a density map of the last state, as PNG")
-        ->check(writable_file())
-        ->option_text("FILE");
+        ->check(writable_png())
+        ->option_text("FILE.png");
     app.add_option("--output-dir", line.output_folder, "Write the input log here, for --replay")
         ->check(writable_folder())
         ->option_text("FOLDER");

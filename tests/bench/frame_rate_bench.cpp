@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -83,8 +84,8 @@ pid_t start(const std::vector<std::string>& words)
     return child;
 }
 
-/// Keeps both of two processors busy for a while.
-pid_t start_load(double after_s, double for_s)
+/// Keeps one processor busy for a while, or two.
+pid_t start_load(int processors, double after_s, double for_s)
 {
     std::fflush(nullptr);
     const pid_t child = fork();
@@ -96,9 +97,11 @@ pid_t start_load(double after_s, double for_s)
         while (std::chrono::steady_clock::now() < end) {
         }
     };
-    std::jthread other(spin);
+    std::optional<std::jthread> other;
+    if (processors > 1)
+        other.emplace(spin);
     spin();
-    other.join();
+    other.reset();
     _exit(0);
 }
 
@@ -115,7 +118,7 @@ class Experiment {
 public:
     explicit Experiment(const std::filesystem::path& folder) : trace_(folder / "trace.csv") {}
 
-    std::vector<Frame> run(int frame_count, Settings settings, bool paced, bool loaded = false) const
+    std::vector<Frame> run(int frame_count, Settings settings, bool paced, int busy_processors = 0) const
     {
         std::vector<std::string> words{
             SLOD_SERVER, SLOD_SCENE, "--no-dds", "--frames", std::to_string(frame_count), "--trace", trace_};
@@ -126,9 +129,9 @@ public:
         for (const std::string& setting : settings)
             words.insert(words.end(), {"--set", setting});
         const pid_t server = start(words);
-        const pid_t load = loaded ? start_load(load_begin_s, load_s) : 0;
+        const pid_t load = busy_processors > 0 ? start_load(busy_processors, load_begin_s, load_s) : 0;
         await(server);
-        if (loaded)
+        if (busy_processors > 0)
             await(load);
         return read_trace(trace_);
     }
@@ -300,8 +303,14 @@ try {
     courses["without clusters"] = experiment.run(frames, unclustered(), true);
     courses["paper"] = experiment.run(frames, {largest, "control.mode=\"paper\""}, true);
     courses["smooth"] = experiment.run(frames, {largest, "control.mode=\"smooth\""}, true);
-    const std::vector<Frame> loaded =
-        experiment.run(750, {"control.mode=\"smooth\"", "control.largest_cluster_size=1000"}, true, true);
+    Json settled;
+    for (const int processors : {1, 2}) {
+        const std::vector<Frame> loaded = experiment.run(
+            750, {"control.mode=\"smooth\"", "control.largest_cluster_size=1000"}, true, processors);
+        settled[processors == 1 ? "one_processor" : "two_processors"] = {
+            settled_after(loaded, load_begin_s, load_begin_s + load_s),
+            settled_after(loaded, load_begin_s + load_s, 1e9)};
+    }
 
     const double size = courses["smooth"].back().size;
     const std::vector<Frame> still = experiment.run(frames, fixed(size, size / 2), true);
@@ -321,12 +330,10 @@ try {
     }
     result["faster_at_the_end"] = quantile(courses["without clusters"], frames - 100, frames, 0.5, work) /
                                   quantile(courses["smooth"], frames - 100, frames, 0.5, work);
-    result["settled_after_load_frames"] = {settled_after(loaded, load_begin_s, load_begin_s + load_s),
-                                           settled_after(loaded, load_begin_s + load_s, 1e9)};
+    result["settled_after_load_frames"] = settled;
     std::printf("with clusters %.1f times faster at the end; settled %s frames after a load of %g s began "
                 "and ended\n",
-                result["faster_at_the_end"].get<double>(), result["settled_after_load_frames"].dump().c_str(),
-                load_s);
+                result["faster_at_the_end"].get<double>(), settled.dump().c_str(), load_s);
     if (!picture.empty())
         plot(courses, folder, picture);
     std::filesystem::remove_all(folder);

@@ -173,6 +173,7 @@ TEST_F(Viewer, RefusesAWrongCommandLineWithTheRemedy)
     refusal({"--size", "1280"}, "WIDTHxHEIGHT");
     refusal({"--range", "5,1"}, "LOW,HIGH");
     refusal({"--frames", "3"}, "--screenshot");
+    refusal({"--screenshot", "picture.jpg"}, "--screenshot: picture.jpg is no name of a PNG picture");
     refusal({"--screenshot", "/no/folder/picture.png"}, "--screenshot: there is no folder /no/folder");
     refusal({"--zoom"}, "--zoom");
 }
