@@ -116,8 +116,7 @@ TEST(Paper, A52_SwitchingMovesNoParticle)
                 const double speed = motion == Motion::Rigid
                                          ? fastest(now)
                                          : std::max(now[i].velocity.norm(), before[i].velocity.norm());
-                ASSERT_LE((now[i].position - before[i].position).norm(),
-                          speed * settings.time.step)
+                ASSERT_LE((now[i].position - before[i].position).norm(), speed * settings.time.step)
                     << "frame " << frame << " particle " << i;
             }
             before = now;
