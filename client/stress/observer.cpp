@@ -20,8 +20,8 @@ std::string this_host()
 
 } // namespace
 
-Observer::Observer(std::uint32_t domain, wire::Profile profile)
-    : connection_(domain, profile, {.stats = true, .regions = true})
+Observer::Observer(std::uint32_t domain, wire::Profile profile, bool regions)
+    : connection_(domain, profile, {.stats = true, .regions = regions})
 {}
 
 void Observer::wait(const std::stop_token& stop, std::chrono::nanoseconds timeout)

@@ -15,8 +15,9 @@ namespace slod::stress {
 /// Watches the server from outside the load: its statistics, and where it runs on this host its process.
 class Observer {
 public:
-    /// Throws wire::DdsError with a remedy when the domain cannot be joined.
-    Observer(std::uint32_t domain, wire::Profile profile);
+    /// Reads the regions of interest, too, where asked to. Throws wire::DdsError with a remedy when the
+    /// domain cannot be joined.
+    Observer(std::uint32_t domain, wire::Profile profile, bool regions);
 
     /// Takes in what comes within `timeout`; returns early when something does.
     void wait(const std::stop_token& stop, std::chrono::nanoseconds timeout);

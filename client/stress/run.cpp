@@ -112,7 +112,7 @@ ExitCode run(const Options& options, const std::stop_token& stop)
                  "name some of those that taskset --cpu-list --pid $$ lists");
         return ExitCode::Usage;
     }
-    Observer observer(options.server.domain, options.server.profile);
+    Observer observer(options.server.domain, options.server.profile, !options.region.empty());
     const client::Clock::time_point end = deadline(options.server);
     if (!client::wait_until(observer, stop, end, [&] { return observer.sees_server(); })) {
         const client::Connection& connection = observer.connection();
