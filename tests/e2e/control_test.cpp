@@ -99,30 +99,30 @@ TEST_F(PaperServer, A52_A53_A55_EachDecisionIsTheRules)
     const auto one_more_or_less = [](double size, int direction) {
         return std::clamp(size + direction, 1.0, 256.0);
     };
-    const auto idle = ruled(150, 200, 1), busy = ruled(150, 1000, 0.01);
+    const auto idle = ruled(80, 20, 1), busy = ruled(80, 1000, 0.01); // 50 ms for a frame, and 10 us
     EXPECT_LT(idle.back().size, 64);
     EXPECT_GT(busy.back().size, 64);
-    const double usual_ms = busy.at(75).work_ms; // for a target that it is now above, now below
-    const auto between = ruled(150, 100, std::clamp(usual_ms / 10, 0.01, 1.0));
+    const double usual_ms = busy.at(40).work_ms; // for a target that it is now above, now below
+    const auto between = ruled(80, 100, std::clamp(usual_ms / 10, 0.01, 1.0));
     for (const auto& rows : {idle, busy, between}) {
-        ASSERT_EQ(rows.size(), 150U);
+        ASSERT_EQ(rows.size(), 80U);
         for (std::size_t frame = 0; frame < 3; ++frame)
             EXPECT_EQ(rows[frame].size, 64) << "no mean of three frames yet";
-        EXPECT_GT(expect_rule(rows, one_more_or_less), 100U);
+        EXPECT_GT(expect_rule(rows, one_more_or_less), 60U);
     }
     EXPECT_EQ(replayed(), 0);
 }
 
 TEST_F(PaperServer, A54_SizesThatFallAreReachedOverManyFrames)
 {
-    const auto rows = ruled(200, 250, 1);
+    const auto rows = ruled(100, 25, 1);
     int rising = 0;
-    for (std::size_t frame = 60; frame < rows.size(); ++frame) { // the fountain is full
+    for (std::size_t frame = 20; frame < rows.size(); ++frame) { // the fountain is full
         rising += rows[frame].clusters > rows[frame - 1].clusters;
         EXPECT_LE(rows[frame].switches, std::max(0.2 * rows[frame - 1].clusters, 2.0)) << frame;
     }
     EXPECT_GE(rising, 5);
-    EXPECT_GT(rows.back().clusters, 2 * rows[60].clusters);
+    EXPECT_GT(rows.back().clusters, 2 * rows[20].clusters);
 }
 
 TEST_F(PaperServer, A56_WithSeveralRegionsEachDecisionIsThePercentage)
