@@ -66,8 +66,9 @@ inline CLI::Validator writable_png()
                 const std::filesystem::path place(text);
                 if (std::string problem = unwritable_file(place); !problem.empty())
                     return problem;
+                std::error_code unknown;
                 const bool is_png = place.extension() == ".png" || place.extension() == ".PNG";
-                return is_png || std::filesystem::is_character_file(place)
+                return is_png || std::filesystem::is_character_file(place, unknown)
                            ? std::string()
                            : text + " is no name of a PNG picture; let it end with .png";
             },

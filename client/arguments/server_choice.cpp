@@ -45,6 +45,11 @@ std::string no_news_sentence(const std::string& missing, const Connection& conne
     return missing + (status.reason.empty() ? "" : ": " + status.reason) + "; " + remedy;
 }
 
+std::string late_regions_sentence()
+{
+    return "not all regions came in time; wait longer with --timeout";
+}
+
 std::string no_region_sentence(const std::string& name)
 {
     return "there is no region named " + name + "; slodctl roi list prints all of them";

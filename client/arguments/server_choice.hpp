@@ -32,6 +32,9 @@ std::string no_server_sentence(const Status& status);
 /// sentence begins, why, and what helps.
 std::string no_news_sentence(const std::string& missing, const Connection& connection);
 
+/// That not all regions have come in time, and the remedy.
+std::string late_regions_sentence();
+
 /// That there is no region of that name, and how to see those that there are.
 std::string no_region_sentence(const std::string& name);
 

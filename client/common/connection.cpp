@@ -16,17 +16,18 @@ std::chrono::nanoseconds age(const dds_sample_info_t& info)
 
 /// What may be wrong when nobody is heard: a server that stands still, or the other domains that this
 /// machine's programs use.
-std::string clue(std::uint32_t domain)
+std::string clues(std::uint32_t domain)
 {
-    std::string others;
+    std::string here, others;
     for (const auto& [used, participants] : domains_in_use()) {
         if (used == domain && participants > 1) // one is this program
-            return ", though this is not the only program of the domain on this machine: a server that was "
-                   "suspended (SIGSTOP, Ctrl-Z) or hangs is not heard";
+            here =
+                "; other programs on this machine are in the domain: clients, or a server that is suspended "
+                "(kill -CONT lets it go on)";
         if (used != domain)
             others += (others.empty() ? "" : ", ") + std::to_string(used);
     }
-    return others.empty() ? "" : "; programs on this machine use DDS domain " + others;
+    return here + (others.empty() ? "" : "; programs on this machine use DDS domain " + others);
 }
 
 } // namespace
@@ -84,7 +85,7 @@ Status Connection::status() const
         " on domain " + std::to_string(domain_) + " (" + wire::configuration_source(profile_) + ")";
     if (state_reader_.misfits() > 0)
         return {Contact::NoServer, "the server" + where + " speaks another version of the protocol"};
-    return {Contact::NoServer, "no server was heard" + where + clue(domain_)};
+    return {Contact::NoServer, "no server was heard" + where + clues(domain_)};
 }
 
 void Connection::take_states()

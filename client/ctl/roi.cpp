@@ -51,7 +51,7 @@ ExitCode look(const CommandLine& line, const std::stop_token& stop)
         return connection.knows_all_regions() || (!name.empty() && connection.regions().contains(name));
     };
     if (!wait_until(connection, stop, end, known)) {
-        complain("not all regions came in time; wait longer with --timeout");
+        complain(client::late_regions_sentence());
         return ExitCode::TimedOut;
     }
     return name.empty() ? print_all(connection, line.json) : print_one(connection, name, line.json);

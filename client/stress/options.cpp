@@ -158,7 +158,7 @@ std::variant<Options, ExitCode> parse_options(int argc, const char* const* argv)
     app.footer(
         "The report goes to stdout, everything else to stderr. CYCLONEDDS_URI, when set, replaces the\n"
         "profile. Exit codes: 0 all held, 1 something did not, 2 wrong usage, 66 no such region,\n"
-        "69 no server, 75 no statistics in time, 77 not permitted.\n"
+        "69 no server, 75 timed out, 77 not permitted.\n"
         "Example: slod-stress --subscribers 16 --slow 2 --commanders 4 --malformed 5 --max-loss 1");
     Options options;
     declare(app, options);

@@ -53,7 +53,7 @@ ExitCode find_region(Observer& observer, const Options& options, const std::stop
     const auto there = [&] { return connection.regions().contains(options.region); };
     const auto absent = [&] { return connection.lacks_region(options.region); };
     if (!client::wait_until(observer, stop, end, [&] { return there() || absent(); })) {
-        complain("not all regions came in time; wait longer with --timeout");
+        complain(client::late_regions_sentence());
         return ExitCode::TimedOut;
     }
     if (there())

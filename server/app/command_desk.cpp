@@ -231,7 +231,7 @@ Answer CommandDesk::add_roi(const Request& request)
 {
     if (!is_name(request.region))
         return refusal(slod_v1_RESULT_INVALID, "region",
-                       "region = " + request.region + " is no name; use 1 to 32 of a-z, 0-9, _ and -.");
+                       "region = \"" + request.region + "\" is no name; use 1 to 32 of a-z, 0-9, _ and -.");
     if (editor_.find(request.region))
         return refusal(slod_v1_RESULT_REGION_EXISTS, "region",
                        "There is a region " + request.region +
@@ -272,7 +272,7 @@ std::optional<Answer> CommandDesk::objection(const Request& request) const
     const RegionRecord* const record = editor_.find(request.region);
     if (!record)
         return refusal(slod_v1_RESULT_UNKNOWN_REGION, "region",
-                       "There is no region " + request.region + "; slodctl roi list prints all of them.");
+                       "There is no region \"" + request.region + "\"; slodctl roi list prints all of them.");
     if (record->owner != wire::Uuid{} && record->owner != request.client)
         return refusal(slod_v1_RESULT_NOT_OWNER, "region",
                        "Region " + request.region + " is client " + wire::to_string(record->owner) +
@@ -281,7 +281,7 @@ std::optional<Answer> CommandDesk::objection(const Request& request) const
         return refusal(slod_v1_RESULT_STALE_REVISION, "if_revision",
                        "Region " + request.region + " is at revision " + std::to_string(record->revision) +
                            ", not " + std::to_string(request.if_revision) +
-                           ": somebody else changed it; slodctl roi show prints what it is now.");
+                           "; slodctl roi show prints what it is now.");
     return {};
 }
 

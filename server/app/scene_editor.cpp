@@ -69,6 +69,8 @@ Problems unchangeable(const std::vector<Assignment>& settings)
         if (assignment.key.find('.') == std::string::npos)
             found.push_back(assignment.key + " is of no table; write table.key, such as background." +
                             assignment.key + ". What can change is in " + changeable);
+        else if (table == "region")
+            found.push_back(assignment.key + " is set by the region's name: slodctl roi set NAME KEY=VALUE.");
         else if (is_table(table))
             found.push_back(assignment.key +
                             " cannot change while the scene runs; start the server with it. "

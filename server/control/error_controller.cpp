@@ -42,6 +42,7 @@ void ErrorController::set_scope(const ControlScope& scope)
 {
     scope_ = scope;
     forget();
+    exceeded_ = false; // by other clusters
     frame_rate_.set_scope(scope);
 }
 
@@ -66,7 +67,6 @@ void ErrorController::forget()
 {
     same_frames_ = still_frames_ = 0;
     search_ = {};
-    exceeded_ = false;
     state_ = ControlState::Adjusting;
 }
 

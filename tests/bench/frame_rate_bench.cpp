@@ -3,6 +3,7 @@
 // rate of droplets of which this machine needs one and a half frame periods for one stream without clusters.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "idl/gnuplot.hpp"
+#include "support/trace_file.hpp"
 
 namespace {
 
@@ -34,36 +36,8 @@ constexpr int frames = 600;
 constexpr int settling = 60; ///< frames after a start that may deviate
 constexpr double load_begin_s = 15, load_s = 5;
 
-struct Frame {
-    double wall_s, step_ms, encode_ms, target_ms, particles, clusters, size, events;
-    double work_ms() const { return step_ms + encode_ms; }
-};
-
+using Frame = slod::test::TracedFrame;
 using Settings = std::vector<std::string>; ///< "table.key=value"
-
-std::vector<Frame> read_trace(const std::filesystem::path& file)
-{
-    std::ifstream stream(file);
-    std::vector<std::string> names;
-    std::vector<Frame> all;
-    for (std::string line; std::getline(stream, line);) {
-        std::vector<std::string> cells;
-        std::istringstream row(line);
-        for (std::string cell; std::getline(row, cell, ',');)
-            cells.push_back(cell);
-        if (names.empty()) {
-            names = cells;
-            continue;
-        }
-        const auto of = [&](const char* name) {
-            const auto column = std::find(names.begin(), names.end(), name) - names.begin();
-            return std::strtod(cells.at(std::size_t(column)).c_str(), nullptr);
-        };
-        all.push_back({of("wall_s"), of("step_ms"), of("encode_ms"), of("target_ms"), of("particles"),
-                       of("clusters"), of("max_cluster_size"), of("splits") + of("merges")});
-    }
-    return all;
-}
 
 /// Starts a program; its process id.
 pid_t start(const std::vector<std::string>& words)
@@ -129,14 +103,16 @@ public:
         for (const std::string& setting : settings)
             words.insert(words.end(), {"--set", setting});
         const pid_t server = start(words);
-        const pid_t load = busy_processors > 0 ? start_load(busy_processors, load_begin_s, load_s) : 0;
+        const pid_t load =
+            busy_processors > 0 ? start_load(busy_processors, startup_s + load_begin_s, load_s) : 0;
         await(server);
         if (busy_processors > 0)
             await(load);
-        return read_trace(trace_);
+        return slod::test::traced_frames(trace_);
     }
 
     double rate = 30'000; ///< droplets a second of each stream
+    double startup_s = 0; ///< of the server, until its clock begins
 
 private:
     std::filesystem::path trace_;
@@ -170,13 +146,13 @@ double quantile(const std::vector<Frame>& all, std::size_t first, std::size_t la
 
 double work(const Frame& frame)
 {
-    return frame.work_ms();
+    return frame.work_ms;
 }
 
 /// Share of the frames from `first` on whose work is this near to `ms`.
 double share_near(const std::vector<Frame>& course, std::size_t first, double ms, double relative)
 {
-    const auto near = [&](const Frame& frame) { return std::abs(frame.work_ms() / ms - 1) <= relative; };
+    const auto near = [&](const Frame& frame) { return std::abs(frame.work_ms / ms - 1) <= relative; };
     const auto begin = course.begin() + std::ptrdiff_t(std::min(first, course.size()));
     return double(std::count_if(begin, course.end(), near)) / double(course.end() - begin);
 }
@@ -206,14 +182,14 @@ Json judge(const std::vector<Frame>& course, double cap)
         const bool settled = std::none_of(std::begin(stream_starts), std::end(stream_starts), [&](int start) {
             return int(i) >= start && int(i) < start + settling;
         });
-        jump = i >= std::size_t(settling) ? std::max(jump, course[i].work_ms() / median) : jump;
+        jump = i >= std::size_t(settling) ? std::max(jump, course[i].work_ms / median) : jump;
         if (!settled)
             continue;
         ++counted;
-        const double error = std::abs(course[i].work_ms() / course[i].target_ms - 1);
+        const double error = std::abs(course[i].work_ms / course[i].target_ms - 1);
         near += error <= 0.05;
         within_10 += error <= 0.1;
-        events += course[i].events / course[i].clusters;
+        events += course[i].switches / course[i].clusters;
     }
     const auto rate = [&](std::size_t first) {
         const std::size_t last = course.size() - 1;
@@ -247,6 +223,31 @@ int settled_after(const std::vector<Frame>& course, double begin_s, double end_s
     return -1;
 }
 
+/// Of one busy processor and of two: frames until the work is at its target again after they began and ended,
+/// and how many times as long as before the last second of the load took for a cluster.
+Json under_loads(const Experiment& experiment)
+{
+    Json loads;
+    for (const int processors : {1, 2}) {
+        const std::vector<Frame> course = experiment.run(
+            750, {"control.mode=\"smooth\"", "control.largest_cluster_size=1000"}, true, processors);
+        const auto cluster_ms = [&](double from_s, double to_s) {
+            std::vector<Frame> second;
+            for (const Frame& frame : course)
+                if (frame.wall_s > from_s && frame.wall_s < to_s)
+                    second.push_back(frame);
+            return quantile(second, 0, second.size(), 0.5,
+                            [](const Frame& frame) { return frame.work_ms / frame.clusters; });
+        };
+        const double end_s = load_begin_s + load_s;
+        loads[processors == 1 ? "one_processor" : "two_processors"] = {
+            {"settled_after_frames",
+             {settled_after(course, load_begin_s, end_s), settled_after(course, end_s, 1e9)}},
+            {"slower", cluster_ms(end_s - 1, end_s) / cluster_ms(load_begin_s - 1, load_begin_s)}};
+    }
+    return loads;
+}
+
 void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::filesystem::path& folder,
           const std::string& picture)
 {
@@ -261,7 +262,7 @@ void plot(const std::map<std::string, std::vector<Frame>>& courses, const std::f
         constexpr std::size_t mean = 5; // frames that the rate is taken over
         for (std::size_t i = mean; i < course.size(); ++i)
             data << i << ' ' << double(mean) / (course[i].wall_s - course[i - mean].wall_s) << ' '
-                 << course[i].work_ms() << ' ' << course[i].size << '\n';
+                 << course[i].work_ms << ' ' << course[i].size << '\n';
     }
     for (const auto& [title, column] : panels) {
         script << "set ylabel '" << title << "'\n"
@@ -296,6 +297,9 @@ try {
         std::filesystem::temp_directory_path() / ("slod-frame-rate-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     Experiment experiment(folder);
+    const auto begin = std::chrono::steady_clock::now();
+    experiment.run(1, {}, false);
+    experiment.startup_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     calibrate(experiment);
 
     const std::string largest = "control.largest_cluster_size=" + std::to_string(cap);
@@ -303,14 +307,7 @@ try {
     courses["without clusters"] = experiment.run(frames, unclustered(), true);
     courses["paper"] = experiment.run(frames, {largest, "control.mode=\"paper\""}, true);
     courses["smooth"] = experiment.run(frames, {largest, "control.mode=\"smooth\""}, true);
-    Json settled;
-    for (const int processors : {1, 2}) {
-        const std::vector<Frame> loaded = experiment.run(
-            750, {"control.mode=\"smooth\"", "control.largest_cluster_size=1000"}, true, processors);
-        settled[processors == 1 ? "one_processor" : "two_processors"] = {
-            settled_after(loaded, load_begin_s, load_begin_s + load_s),
-            settled_after(loaded, load_begin_s + load_s, 1e9)};
-    }
+    const Json loads = under_loads(experiment);
 
     const double size = courses["smooth"].back().size;
     const std::vector<Frame> still = experiment.run(frames, fixed(size, size / 2), true);
@@ -330,10 +327,9 @@ try {
     }
     result["faster_at_the_end"] = quantile(courses["without clusters"], frames - 100, frames, 0.5, work) /
                                   quantile(courses["smooth"], frames - 100, frames, 0.5, work);
-    result["settled_after_load_frames"] = settled;
-    std::printf("with clusters %.1f times faster at the end; settled %s frames after a load of %g s began "
-                "and ended\n",
-                result["faster_at_the_end"].get<double>(), settled.dump().c_str(), load_s);
+    result["loads"] = loads;
+    std::printf("with clusters %.1f times faster at the end; under loads of %g s: %s\n",
+                result["faster_at_the_end"].get<double>(), load_s, loads.dump().c_str());
     if (!picture.empty())
         plot(courses, folder, picture);
     std::filesystem::remove_all(folder);

@@ -244,14 +244,21 @@ TEST_F(WireSlodctl, AStalledServerIsToldFromADeadOne)
 // Its participant answers nobody who joins, but holds its ports.
 TEST_F(WireSlodctl, AServerThatIsSuspendedIsHintedAt)
 {
+    const auto said = [&] {
+        Child status(slodctl({"status", "--timeout", "0.5"}));
+        EXPECT_EQ(status.wait(), int(ExitCode::NoServer));
+        return status.errors();
+    };
     Child server(source("5"));
-    Connection connection = connect();
-    ASSERT_TRUE(reaches(connection, Contact::Live));
+    {
+        Connection connection = connect();
+        ASSERT_TRUE(reaches(connection, Contact::Live));
+    }
     server.signal(SIGSTOP);
-    Child status(slodctl({"status", "--timeout", "0.5"}));
-    EXPECT_EQ(status.wait(), int(ExitCode::NoServer));
-    EXPECT_NE(status.errors().find("suspended"), std::string::npos) << status.errors();
-    server.signal(SIGCONT);
+    EXPECT_NE(said().find("suspended"), std::string::npos);
+    server.signal(SIGKILL);
+    server.wait();
+    EXPECT_EQ(said().find("suspended"), std::string::npos) << "there is none any more";
 }
 
 TEST_F(WireSlodctl, OfTwoServersOnADomainNoneIsSteered)

@@ -92,8 +92,9 @@ double fastest(const ParticleSet& particles)
     return speed;
 }
 
-/// When clusters are formed anew every particle moves by its own velocity, before or after, and no further:
-/// what an offset is rounded by is less than what the two differ by.
+/// When clusters are formed anew every particle moves no further than by its own velocity, of before or after
+/// the frame; a rigid cluster's than by that of the fastest. No tolerance is needed: rounding an offset is
+/// less than the difference of the two velocities.
 TEST(Paper, A52_SwitchingMovesNoParticle)
 {
     for (const auto motion : {Motion::Flow, Motion::Stream, Motion::Rigid}) {

@@ -106,7 +106,13 @@ TEST_F(Desk, AStaleRevisionIsRefused)
     EXPECT_GT(moved.revision, added);
     Request late = move("core", {2, 0, 0}, bob);
     late.if_revision = added;
-    EXPECT_EQ(ask(late).result, slod_v1_RESULT_STALE_REVISION);
+    const Answer refused = ask(late);
+    EXPECT_EQ(refused.result, slod_v1_RESULT_STALE_REVISION);
+    EXPECT_TRUE(refused.text.starts_with("Region core is at revision " + std::to_string(moved.revision) +
+                                         ", not " + std::to_string(added)))
+        << refused.text;
+    EXPECT_TRUE(ask(move("nosuch", {0, 0, 0})).text.starts_with("There is no region \"nosuch\"; "));
+    EXPECT_TRUE(ask(add("no such")).text.starts_with("region = \"no such\" is no name; "));
     EXPECT_EQ(region("core")->centre, Vector3d(1, 0, 0));
 }
 

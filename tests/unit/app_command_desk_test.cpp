@@ -150,6 +150,7 @@ TEST_F(Desk, ASettingThatCannotChangeIsRefusedWithItsOwnReason)
                           " cannot change while the scene runs; start the server with it. What can is in "
                           "alarms, background, control, effects, meter, server, or the table of an effect");
     expect("gravity", "write table.key");
+    expect("region.0.max_cluster_size", "is set by the region's name: slodctl roi set");
     expect("nosuch.strength", "nosuch.strength is of no table. What can change is in alarms, background");
     expect("effects.gravty", "did you mean gravity?");
     expect("effects.vortex", "effects.vortex = 1 ");

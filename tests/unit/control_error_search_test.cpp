@@ -102,6 +102,20 @@ TEST(ErrorControl, ForgetsWhatWasFoundWithOtherRegions)
     EXPECT_NEAR(plant.median() / 0.02, 1, 0.2);
 }
 
+TEST(ErrorControl, YieldsNothingToTheRateBeforeOtherRegionsAreJudged)
+{
+    ErrorPlant plant;
+    const auto controller = make_controller(holding(0.003), {}, {});
+    Detail detail;
+    double work_ms = 0;
+    for (int frame = 0; frame < 1500; ++frame)
+        detail = run_frame(plant, *controller, detail, target_ms, work_ms);
+    ASSERT_EQ(controller->state(), ControlState::Yielding);
+    controller->set_scope({.regions = 2});
+    run_frame(plant, *controller, detail, target_ms, work_ms);
+    EXPECT_NE(controller->state(), ControlState::Yielding);
+}
+
 /// Frames until the size first moves.
 int first_move(ErrorPlant plant, double target, int frames)
 {

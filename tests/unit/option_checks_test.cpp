@@ -47,6 +47,18 @@ TEST(OptionChecks, AFileNeedsAFolderThatIsThere)
     EXPECT_FALSE(std::filesystem::exists(folder / "new")) << "asking makes nothing";
 }
 
+TEST(OptionChecks, APicturesNameSaysThatItIsPng)
+{
+    const ScratchFolder scratch;
+    const auto complaint = [check = writable_png()](std::string place) { return check(place); };
+    for (const char* name : {"a.png", "a.PNG"})
+        EXPECT_EQ(complaint(scratch.path() / name), "");
+    EXPECT_EQ(complaint("/dev/null"), "");
+    for (const std::string name : {"a.jpg", "a", "png"})
+        EXPECT_EQ(complaint(name), name + " is no name of a PNG picture; let it end with .png");
+    EXPECT_NE(complaint(scratch.path() / "none" / "a.jpg").find("there is no folder"), std::string::npos);
+}
+
 TEST(OptionChecks, AFolderMayBeMadeWhereAFolderIs)
 {
     const ScratchFolder scratch;
