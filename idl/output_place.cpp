@@ -29,6 +29,8 @@ std::filesystem::path folder_of(const std::filesystem::path& place)
 std::string unwritable_file(const std::filesystem::path& place)
 {
     std::error_code ignored;
+    if (place.empty())
+        return "there is no name; name a file";
     if (std::filesystem::is_directory(place, ignored))
         return place.string() + " is a folder; name a file in it";
     const std::filesystem::path folder = folder_of(place);

@@ -45,6 +45,11 @@ std::string no_news_sentence(const std::string& missing, const Connection& conne
     return missing + (status.reason.empty() ? "" : ": " + status.reason) + "; " + remedy;
 }
 
+std::string no_commands_sentence()
+{
+    return "the server takes no commands; start it with wire.commands = true";
+}
+
 std::string late_regions_sentence()
 {
     return "not all regions came in time; wait longer with --timeout";

@@ -32,6 +32,9 @@ std::string no_server_sentence(const Status& status);
 /// sentence begins, why, and what helps.
 std::string no_news_sentence(const std::string& missing, const Connection& connection);
 
+/// That the server takes no commands, and the remedy.
+std::string no_commands_sentence();
+
 /// That not all regions have come in time, and the remedy.
 std::string late_regions_sentence();
 

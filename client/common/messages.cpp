@@ -1,5 +1,9 @@
 #include "common/messages.hpp"
 
+#include <algorithm>
+
+#include "idl/topics.hpp"
+
 namespace slod::client {
 
 namespace {
@@ -26,6 +30,11 @@ Conserved conserved_of(const slod_v1_ConservedQuantities& from)
 }
 
 } // namespace
+
+bool ServerInfo::takes_commands() const
+{
+    return std::find(topics.begin(), topics.end(), wire::topic<wire::Command>().name) != topics.end();
+}
 
 void assign(ServerInfo& to, const wire::ServerState& from)
 {

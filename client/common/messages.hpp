@@ -34,6 +34,8 @@ struct ServerInfo {
     std::uint32_t process = 0;
     std::int64_t started_ns = 0;
     std::vector<std::string> topics;
+
+    bool takes_commands() const; ///< wire.commands of its scene
 };
 
 struct Conserved {

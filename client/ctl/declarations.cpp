@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +53,16 @@ CLI::Option* add_vector(CLI::App& app, const std::string& name, Vector& target, 
     return app.add_option_function<std::string>(name, take, help)->option_text("X,Y,Z");
 }
 
+CLI::Option* add_half_extent(CLI::App& app, CommandRequest& request, const std::string& help)
+{
+    return add_vector(app, "--half-extent", request.half_extent, help)->check([](const std::string& text) {
+        const auto vector = vector_of(text);
+        const bool fits =
+            !vector || std::all_of(vector->begin(), vector->end(), [](double x) { return x > 0; });
+        return fits ? std::string() : text + " leaves nothing; write three numbers above 0, or one for all";
+    });
+}
+
 CLI::Option* add_settings(CLI::App& app, const std::string& name, CommandRequest& request,
                           const std::string& help)
 {
@@ -67,7 +79,13 @@ CLI::Option* add_settings(CLI::App& app, const std::string& name, CommandRequest
 
 CLI::Option* add_radius(CLI::App& app, CommandRequest& request)
 {
-    return app.add_option("--radius", request.radius, "Radius of a sphere")->option_text("R");
+    const auto take = [&request](const std::string& text) {
+        const auto number = text.find(',') == std::string::npos ? vector_of(text) : std::nullopt;
+        if (!number || !(number->front() > 0))
+            throw CLI::ValidationError("--radius", '"' + text + "\" is no number above 0");
+        request.radius = number->front();
+    };
+    return app.add_option_function<std::string>("--radius", take, "Radius of a sphere")->option_text("R");
 }
 
 CLI::App* action(CLI::App& app, CommandLine& line, const std::string& name, const std::string& help,
@@ -136,7 +154,7 @@ void declare_add(CLI::App& app, CommandLine& line)
     CLI::Option* const centre =
         add_vector(add, "--centre", request.centre, "Centre of a box or a sphere, the eye of a frustum");
     CLI::Option* const half_extent =
-        add_vector(add, "--half-extent", request.half_extent, "Half the sides of a box, which it makes it");
+        add_half_extent(add, request, "Half the sides of a box, which it makes it, or one number for all");
     CLI::Option* const radius = add_radius(add, request)->excludes(half_extent);
     add_settings(add, "--set", request, "A setting as in [[region]] of a scene; may be repeated")
         ->type_size(1)
@@ -175,7 +193,9 @@ void declare_simple(CLI::App& app, CommandLine& line)
 void declare_step(CLI::App& app, CommandLine& line)
 {
     line.request.frames = 1;
-    app.add_option("N", line.request.frames, "Frames to run")->check(at_least_one())->option_text("[1]");
+    app.add_option("N", line.request.frames, "Frames to run")
+        ->check(between<std::uint32_t>(1, std::numeric_limits<std::uint32_t>::max()))
+        ->option_text("[1]");
     declare_simple(app, line);
 }
 
@@ -235,7 +255,7 @@ void declare_roi(CLI::App& app, CommandLine& line)
     CLI::App* const resize =
         change_action(app, line, "resize", "Give a box or a sphere another size.", "resize_roi");
     CLI::App* const size = resize->add_option_group("size");
-    add_vector(*size, "--half-extent", request.half_extent, "Half the sides of a box");
+    add_half_extent(*size, request, "Half the sides of a box, or one number for all");
     add_radius(*size, request);
     size->require_option(1);
     CLI::App* const set = change_action(app, line, "set", "Change settings of a region.", "set_roi");

@@ -60,15 +60,17 @@ ExitCode run_steering(const CommandLine& line, const std::stop_token& stop)
         complain("nothing was sent: it would meet one of them by chance");
         return ExitCode::Failure;
     }
+    if (!connection.server()->takes_commands()) {
+        complain(client::no_commands_sentence());
+        return ExitCode::NotPermitted;
+    }
     const std::uint64_t number = commander.send(line.request, connection.server()->session);
     std::optional<client::CommandAnswer> answer;
     const auto answered = [&] { return (answer = commander.take_answer(number)).has_value(); };
     if (wait_until(commander, stop, end, answered))
         return show(*answer, line.json);
-    complain(commander.connected()
-                 ? "the server has not answered in time; wait longer with --timeout"
-                 : "the server takes no commands, or could not be reached in time; start it with "
-                   "wire.commands = true, or wait longer with --timeout");
+    complain(commander.connected() ? "the server has not answered in time; wait longer with --timeout"
+                                   : "the server could not be reached in time; wait longer with --timeout");
     return ExitCode::TimedOut;
 }
 

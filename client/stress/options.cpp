@@ -140,8 +140,16 @@ std::string problem(const Options& options)
     if (options.subscribers + options.commanders > most_clients)
         return "a machine has room for " + std::to_string(most_clients) +
                " clients in one domain; name fewer";
-    if (options.commands > 0 && options.commanders == 0)
-        return "--commands needs somebody who commands: name --commanders";
+    const Rates& rates = options.rates;
+    const double rough = rates.malformed + rates.duplicates + rates.reordered + rates.impostors;
+    if ((options.commands > 0 || rough > 0) && options.commanders == 0)
+        return "--commands, --malformed, --duplicates, --reordered and --impostors need somebody who "
+               "commands: "
+               "name --commanders";
+    if (options.commanders > 0 && options.regions == 0)
+        return "commanders change regions of their own: name at least one with --regions";
+    if (options.seconds == 0)
+        return "nothing is measured in no time: name --seconds above 0";
     if (options.sweep && (options.commanders > 0 || special > 0))
         return "--sweep is about steady subscribers alone: leave the others out";
     if (options.sweep && options.subscribers == 0)

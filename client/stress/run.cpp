@@ -122,6 +122,10 @@ ExitCode run(const Options& options, const std::stop_token& stop)
                         : no_news_sentence("no statistics came in time", connection));
         return absent ? ExitCode::NoServer : ExitCode::TimedOut;
     }
+    if (options.commanders > 0 && !observer.connection().server()->takes_commands()) {
+        complain(client::no_commands_sentence());
+        return ExitCode::NotPermitted;
+    }
     if (const ExitCode code = find_region(observer, options, stop, end); code != ExitCode::Success)
         return code;
     const std::vector<Report> reports = reports_of(observer, options, stop);

@@ -56,19 +56,22 @@ void write_png(const Pixels& pixels, const std::filesystem::path& path)
     if (!bytes)
         throw std::runtime_error("no memory for a picture");
 
-    std::filesystem::path unfinished = path;
-    unfinished += ".unfinished";
+    std::error_code error;
+    const bool device = std::filesystem::is_character_file(path, error); // which is written to as it stands
+    const std::filesystem::path place = std::filesystem::weakly_canonical(path, error); // symlinks stay
+    const std::filesystem::path unfinished = device ? path : std::filesystem::path(place) += ".unfinished";
+    error.clear();
     errno = 0;
     std::ofstream file(unfinished, std::ios::binary);
     file.write(static_cast<const char*>(bytes.get()), size);
     file.close();
-    std::error_code error;
-    if (file)
-        std::filesystem::rename(unfinished, path, error);
+    if (file && !device)
+        std::filesystem::rename(unfinished, place, error);
     if (file && !error)
         return;
     const int reason = error ? error.value() : errno;
-    std::filesystem::remove(unfinished, error);
+    if (!device)
+        std::filesystem::remove(unfinished, error);
     fail(path, reason);
 }
 

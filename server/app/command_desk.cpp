@@ -301,7 +301,10 @@ Answer CommandDesk::move_roi(const Request& request)
     if (auto answer = objection(request))
         return *answer;
     if (editor_.find(request.region)->settings.shape == Shape::Everywhere)
-        return refusal(slod_v1_RESULT_INVALID, "region", "The region is everywhere; set its shape first.");
+        return refusal(
+            slod_v1_RESULT_INVALID, "region",
+            request.region + " is everywhere; " +
+                (request.region == background_name ? "move another region." : "set its shape first."));
     return change(request, {{"centre", value_text(request.centre)}});
 }
 
@@ -312,7 +315,9 @@ Answer CommandDesk::resize_roi(const Request& request)
     const Shape shape = editor_.find(request.region)->settings.shape;
     if (shape != Shape::Box && shape != Shape::Sphere)
         return refusal(slod_v1_RESULT_INVALID, "region",
-                       "Only a box or a sphere can be resized; set the region's shape, or its settings.");
+                       request.region +
+                           " is no box or sphere, which alone can be resized; change its settings "
+                           "with slodctl roi set.");
     const bool box = shape == Shape::Box;
     if (box && request.radius != 0)
         return refusal(slod_v1_RESULT_INVALID, "radius",

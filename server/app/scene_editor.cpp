@@ -67,8 +67,10 @@ Problems unchangeable(const std::vector<Assignment>& settings)
         if (std::find(tables.begin(), tables.end(), table) != tables.end())
             continue;
         if (assignment.key.find('.') == std::string::npos)
-            found.push_back(assignment.key + " is of no table; write table.key, such as background." +
-                            assignment.key + ". What can change is in " + changeable);
+            found.push_back(
+                assignment.key +
+                " is of no table; write table.key, such as server.frame_rate. What can change is in " +
+                changeable);
         else if (table == "region")
             found.push_back(assignment.key + " is set by the region's name: slodctl roi set NAME KEY=VALUE.");
         else if (is_table(table))

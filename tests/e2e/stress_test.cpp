@@ -131,6 +131,9 @@ TEST_F(Stress, TheExitCodeSaysWhetherLimitsHeld)
     EXPECT_EQ(load(with({"--picture", (scratch.path() / "no folder" / "load.png").string()})), 2);
     EXPECT_NE(said.find("--picture: there is no folder "), std::string::npos) << said;
     EXPECT_EQ(load({"--commands", "5"}), 2) << "and nobody commands";
+    EXPECT_EQ(load({"--malformed", "5"}), 2) << "likewise";
+    EXPECT_EQ(load({"--commanders", "1", "--regions", "0"}), 2);
+    EXPECT_EQ(load({"--seconds", "0"}), 2);
     EXPECT_EQ(load({"--sweep", "--subscribers", "0"}), 2);
     EXPECT_EQ(load({"--cpus", "0,1023"}), 2) << "Linux itself would take the first alone";
     EXPECT_EQ(load({"--subscribers", "many"}), 2);

@@ -101,6 +101,13 @@ TEST_F(Viewer, DrawsTheFountainWithoutAScreen)
     EXPECT_EQ(drawn.height(), 400);
     EXPECT_GT(drawn.lit(), 640 * 400 / 1000) << "a stream one pixel wide and a fifth of the picture high";
     EXPECT_LT(drawn.lit(), 640 * 400 / 2) << "the sky is black";
+    const std::filesystem::path link = scratch.path() / "link.png";
+    std::filesystem::create_symlink(picture, link);
+    std::filesystem::resize_file(picture, 0);
+    Child linked(viewer({"--screenshot", link.string(), "--timeout", "60"}));
+    EXPECT_EQ(linked.wait(), 0) << linked.errors();
+    EXPECT_TRUE(std::filesystem::is_symlink(link)) << "and what it leads to has the picture";
+    EXPECT_TRUE(Picture(picture).readable());
     Child lost(headless({"--region", "nowhere"}));
     EXPECT_EQ(lost.wait(), int(ExitCode::NotFound));
     EXPECT_TRUE(contains(lost.errors(), "no region named nowhere; slodctl roi list")) << lost.errors();
@@ -173,6 +180,7 @@ TEST_F(Viewer, RefusesAWrongCommandLineWithTheRemedy)
     refusal({"--size", "1280"}, "WIDTHxHEIGHT");
     refusal({"--range", "5,1"}, "LOW,HIGH");
     refusal({"--frames", "3"}, "--screenshot");
+    refusal({"--screenshot", ""}, "--screenshot: there is no name");
     refusal({"--screenshot", "picture.jpg"}, "--screenshot: picture.jpg is no name of a PNG picture");
     refusal({"--screenshot", "/no/folder/picture.png"}, "--screenshot: there is no folder /no/folder");
     refusal({"--zoom"}, "--zoom");

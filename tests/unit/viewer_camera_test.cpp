@@ -121,7 +121,7 @@ TEST(ViewerCamera, AWrongTextIsRefusedWithTheKeyToBlame)
           std::pair{"look_at=1,2", "look_at"}, std::pair{"look_at=1,2,x", "look_at"},
           std::pair{"elevation=91", "elevation"}, std::pair{"zoom=2", "zoom"}, std::pair{"left", "left"},
           std::pair{"field_of_view=180", "field_of_view"}, std::pair{"distance=1,", "distance"},
-          std::pair{"", "nothing"}}) {
+          std::pair{"", "no camera"}}) {
         SCOPED_TRACE(text);
         const auto read = camera_of(text);
         ASSERT_TRUE(std::holds_alternative<std::string>(read));
